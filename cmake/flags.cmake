@@ -1,0 +1,34 @@
+# Compile flags that every target of the project shares.
+#
+# Results must have the same bits for any thread count and on any machine that runs the same binary, so the
+# compiler may not contract a*b+c into one rounding (-ffp-contract=off) and -ffast-math stays away. The two
+# flags below change no result: the code neither reads errno after a math call nor traps on exceptions.
+add_library(galet_flags INTERFACE)
+target_compile_options(galet_flags INTERFACE
+  -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+if(GALET_VALIDATE)
+  target_compile_definitions(galet_flags INTERFACE GALET_VALIDATE=1)
+endif()
+if(GALET_SANITIZE)
+  target_compile_options(galet_flags INTERFACE -fsanitize=${GALET_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(galet_flags INTERFACE -fsanitize=${GALET_SANITIZE})
+endif()
+if(GALET_COVERAGE)
+  target_compile_options(galet_flags INTERFACE --coverage)
+  target_link_options(galet_flags INTERFACE --coverage)
+endif()
+
+# galet_library(NAME DEPENDS...): one of the project's libraries, built from every .cpp file below this folder.
+function(galet_library name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/commands/")
+  add_library(galet_${name} ${sources})
+  add_library(galet::${name} ALIAS galet_${name})
+  set_target_properties(galet_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME galet_${name})
+  target_include_directories(galet_${name} SYSTEM PUBLIC
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/galet>)
+  target_include_directories(galet_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(galet_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:galet_flags>)
+  target_compile_features(galet_${name} PUBLIC cxx_std_20)
+endfunction()

@@ -1,0 +1,60 @@
+// The interface of both engines. One virtual call per advance, none per grain or contact.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/archive.hpp"
+#include "common/core/layout.hpp"
+#include "common/core/profile.hpp"
+#include "common/engine/snapshot.hpp"
+
+namespace galet {
+
+/// Mechanical energy by form. Elastic parts are zero in the rigid engine.
+struct EnergyParts {
+  double kinetic = 0;             ///< sum of m v^2 / 2, fluctuations
+  double rotational = 0;          ///< sum of I w^2 / 2
+  double cell = 0;                ///< sum of inertia * rate^2 / 2 over the stress-driven modes
+  double elastic_normal = 0;
+  double elastic_tangential = 0;
+  double gravity = 0;             ///< - sum of m gravity.x
+  double total() const { return kinetic + rotational + cell + elastic_normal + elastic_tangential + gravity; }
+};
+
+/// How the contact problems of a cd run went (all zero in md).
+struct SolverSummary {
+  long steps = 0;
+  long sweeps = 0;
+  long missed = 0;             ///< steps that ended above the tolerance
+  double worst_residual = 0;
+  double residual_sum = 0;     ///< sum over the steps of the residual reached
+  long corrections = 0;        ///< steps whose positions were corrected for drift
+};
+
+template <int D>
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual std::string_view name() const = 0;
+  virtual Layout layout() const = 0;
+  virtual double dt() const = 0;
+  virtual double time() const = 0;
+  virtual long steps() const = 0;
+
+  /// Takes `count` steps. Throws RunError, naming the grain or contact, when the state is no longer sound.
+  virtual void advance(long count) = 0;
+
+  /// State at the end of the last step. Before the first step the contact columns are empty.
+  virtual Snapshot<D> snapshot() = 0;
+  virtual EnergyParts energy() const = 0;
+  virtual SolverSummary solver_summary() const { return {}; }
+  virtual const Profile& profile() const = 0;
+
+  /// Everything that influences the future, bit for bit; restore() is its inverse for an engine of the same scene.
+  virtual void save(Archive& archive) const = 0;
+  virtual void restore(const Archive& archive) = 0;
+};
+
+}  // namespace galet

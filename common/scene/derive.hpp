@@ -1,0 +1,86 @@
+// What follows from a scene: the numbers that a user did not write, each from a stated formula. `galet describe`
+// prints them; both engines are built from them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/layout.hpp"
+#include "common/scene/sample.hpp"
+#include "common/scene/scene.hpp"
+
+namespace galet {
+
+/// The facts about the grains that a derivation needs.
+struct GrainFacts {
+  int count = 0;
+  double mean_diameter = 1;  ///< d
+  double least_diameter = 1;
+  double largest_diameter = 1;
+  double mean_mass = 1;      ///< m, mass of a grain of mean diameter
+  double least_mass = 1;
+};
+
+template <int D>
+GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample);
+
+/// Elastic and viscous constants of one material, as the md engine uses them.
+struct SoftContact {
+  double normal_stiffness = 0;      ///< K_N
+  double tangential_stiffness = 0;  ///< K_T
+  double damping_ratio = 0;         ///< zeta
+  DampingConvention convention = DampingConvention::elastic;
+};
+
+struct Derived {
+  Layout layout{2, false};
+  GrainFacts grains;
+  double friction = 0;
+  double restitution = 0;                    ///< e
+  std::optional<SoftContact> soft;           ///< absent when the scene says nothing about stiffness
+  std::optional<double> pressure;            ///< P
+  std::optional<double> stiffness_level;     ///< kappa = K_N / (P d^(D-2))
+  std::optional<double> shear_rate;
+  std::optional<double> inertial_number;     ///< I = shear_rate sqrt(m / (P d^(D-2)))
+  std::optional<double> inertial_time;       ///< tau_i = sqrt(m / (P d^(D-2)))
+  std::optional<double> collision_time;      ///< tau_c of two grains of mean mass
+  std::optional<double> md_dt;               ///< time step of md
+  std::optional<double> md_dt_stable;        ///< its stability bound
+  double cd_dt = 0;
+  double duration = 0;                       ///< simulated time of the run
+};
+
+/// Throws InputError when the scene lacks what the derivation needs (e.g. a duration).
+Derived derive(const Scene& scene, const GrainFacts& facts);
+
+/// The drives of the scene's loading as modes of the cell (initial rates set; default inertia from the sample).
+template <int D>
+std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, const Sample<D>& sample);
+
+/// (symbol, value with unit, where it comes from), in reading order: what `galet describe` prints.
+struct DerivedLine {
+  std::string symbol;
+  std::string value;
+  std::string from;
+};
+std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived);
+
+/// Restitution of a head-on collision with linear stiffness and damping ratio zeta (damping constant
+/// alpha = zeta * 2 sqrt(m* K_N)); e = exp(-pi zeta / sqrt(1 - zeta^2)) for `elastic`,
+/// e = exp(-(zeta/s) (pi - 2 asin zeta)), s = sqrt(1 - zeta^2), for `total` (Schwager and Poschel 2007; its
+/// continuation above zeta = 1). Zero for `elastic` with zeta >= 1.
+double restitution_of_damping(double zeta, DampingConvention convention);
+
+/// Its inverse: zeta for which the collision has restitution e, 0 < e <= 1.
+double damping_of_restitution(double e, DampingConvention convention);
+
+/// Duration of that collision for reduced mass m* and stiffness K.
+double collision_duration(double zeta, DampingConvention convention, double reduced_mass, double stiffness);
+
+extern template GrainFacts grain_facts<2>(const Scene&, const Sample<2>&);
+extern template GrainFacts grain_facts<3>(const Scene&, const Sample<3>&);
+extern template std::vector<CellMode<2>> cell_modes<2>(const Scene&, const Derived&, const Sample<2>&);
+extern template std::vector<CellMode<3>> cell_modes<3>(const Scene&, const Derived&, const Sample<3>&);
+
+}  // namespace galet
