@@ -11,7 +11,9 @@ if(GALET_VALIDATE)
   target_compile_definitions(galet_flags INTERFACE GALET_VALIDATE=1)
 endif()
 if(GALET_SANITIZE)
-  target_compile_options(galet_flags INTERFACE -fsanitize=${GALET_SANITIZE} -fno-omit-frame-pointer)
+  # Without -fno-sanitize-recover the undefined-behaviour sanitizer only prints, and a test that it speaks in passes.
+  target_compile_options(galet_flags INTERFACE
+    -fsanitize=${GALET_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(galet_flags INTERFACE -fsanitize=${GALET_SANITIZE})
 endif()
 if(GALET_COVERAGE)
@@ -26,9 +28,8 @@ function(galet_library name)
   add_library(galet_${name} ${sources})
   add_library(galet::${name} ALIAS galet_${name})
   set_target_properties(galet_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME galet_${name})
-  target_include_directories(galet_${name} SYSTEM PUBLIC
+  target_include_directories(galet_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/galet>)
-  target_include_directories(galet_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(galet_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:galet_flags>)
   target_compile_features(galet_${name} PUBLIC cxx_std_20)
 endfunction()

@@ -20,6 +20,7 @@ struct GrainFacts {
   double largest_diameter = 1;
   double mean_mass = 1;      ///< m, mass of a grain of mean diameter
   double least_mass = 1;
+  double largest_speed = 0;  ///< at the start
 };
 
 template <int D>

@@ -1,0 +1,141 @@
+// From pairs to a contact problem: which pairs take part in a step, and the problem's columns in coloured order.
+#pragma once
+
+#include <cstdint>
+
+#include "cd/laws/restitution.hpp"
+#include "cd/problem.hpp"
+#include "common/core/parallel.hpp"
+#include "common/engine/bodies.hpp"
+#include "common/geometry/contact_frame.hpp"
+#include "common/graph/colouring.hpp"
+#include "common/neighbour/verlet_list.hpp"
+
+namespace galet::cd {
+
+template <Layout Y>
+ContactFrame<Y.dim> frame_of(const Bodies<Y>& bodies, const PairColumns<Y.dim>& pairs, std::size_t row) {
+  constexpr int D = Y.dim;
+  const int i = pairs.i[row], j = pairs.j[row];
+  if (j >= bodies.grains())
+    return plane_frame<D>(bodies.position[i], bodies.radius[i], bodies.planes[j - bodies.grains()]);
+  const Vec<D> branch = bodies.position[j] - bodies.position[i] + lattice<D>(bodies.cell.box, pairs.image[row]);
+  return grain_frame<D>(branch, branch.squaredNorm(), bodies.radius[i], bodies.radius[j]);
+}
+
+template <Layout Y>
+class Assembly {
+ public:
+  static constexpr int D = Y.dim;
+
+  /// Frames of all listed pairs at the bodies' positions, and their normal velocities at the start of the step.
+  void measure(const Bodies<Y>& bodies, const VerletList<D>& list) {
+    frames_.resize(list.size());
+    opening_.resize(list.size());
+    active_.assign(list.size(), 0);
+    const PairColumns<D>& pairs = list.pairs();
+    parallel_ranges(list.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        frames_[row] = frame_of(bodies, pairs, row);
+        opening_[row] = frames_[row].normal.dot(centre_velocity(bodies, pairs, row, bodies.velocity));
+      }
+    });
+  }
+
+  /// Marks the pairs that could close within the step: gap below `margin` plus twice what the free velocities cover.
+  void activate(const VerletList<D>& list, const Column<Vec<D>>& free_velocity, double dt, double margin) {
+    const PairColumns<D>& pairs = list.pairs();
+    for (std::size_t row = 0; row < list.size(); ++row) {
+      const double approach = free_velocity[pairs.i[row]].norm() + free_velocity[pairs.j[row]].norm();
+      if (frames_[row].gap <= margin + 2 * dt * (approach + std::abs(opening_[row]))) active_[row] = 1;
+    }
+  }
+
+  /// Marks the pairs that are not in the problem and would overlap by the end of the step; returns how many.
+  int activate_missed(const Bodies<Y>& bodies, const VerletList<D>& list, const Iterate<Y>& iterate, double dt) {
+    int missed = 0;
+    const PairColumns<D>& pairs = list.pairs();
+    for (std::size_t row = 0; row < list.size(); ++row) {
+      if (active_[row]) continue;
+      const ContactFrame<D>& frame = frames_[row];
+      Vec<D> u = iterate.velocity[pairs.j[row]] - iterate.velocity[pairs.i[row]];
+      if (pairs.j[row] < bodies.grains()) u += iterate.gradient * frame.branch;
+      if (frame.gap + dt * frame.normal.dot(u) < 0) active_[row] = 1, ++missed;
+    }
+    return missed;
+  }
+
+  /// Fills the contact columns from the active rows, grouped by colour. `row_of` tells each contact's row.
+  void fill(const Bodies<Y>& bodies, const VerletList<D>& list, double restitution, double dt, Problem<Y>& problem) {
+    const PairColumns<D>& pairs = list.pairs();
+    rows_.clear(), body_i_.clear(), body_j_.clear();
+    for (std::size_t row = 0; row < list.size(); ++row) {
+      if (!active_[row]) continue;
+      rows_.push_back(static_cast<int>(row));
+      body_i_.push_back(pairs.i[row]);
+      body_j_.push_back(pairs.j[row]);
+    }
+    colouring_.colour(body_i_, body_j_, bodies.grains());
+    problem.resize(rows_.size());
+    problem.group = colouring_.start;
+    problem.sequential_tail = colouring_.overflow;
+    row_of_.resize(rows_.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const int row = rows_[colouring_.order[k]];
+      row_of_[k] = row;
+      const ContactFrame<D>& frame = frames_[row];
+      problem.i[k] = pairs.i[row];
+      problem.j[k] = pairs.j[row];
+      problem.normal[k] = frame.normal;
+      problem.distance[k] = frame.distance;
+      problem.offset[k] = impact_offset(frame.gap, opening_[row], restitution, dt);
+      fill_block(bodies, frame, k, problem);
+    }
+  }
+
+  const std::vector<int>& row_of() const { return row_of_; }
+  const ContactFrame<D>& frame(std::size_t row) const { return frames_[row]; }
+  std::size_t size() const { return frames_.size(); }
+
+ private:
+  /// Relative velocity of the centres of a pair (of grain and plane), without spins.
+  static Vec<D> centre_velocity(const Bodies<Y>& bodies, const PairColumns<D>& pairs, std::size_t row,
+                                const Column<Vec<D>>& velocity) {
+    const int i = pairs.i[row], j = pairs.j[row];
+    if (j >= bodies.grains()) return bodies.planes[j - bodies.grains()].velocity - velocity[i];
+    const Vec<D> branch =
+        bodies.position[j] - bodies.position[i] + lattice<D>(bodies.cell.box, pairs.image[row]);
+    return velocity[j] - velocity[i] + bodies.cell.rate * branch;
+  }
+
+  /// Diagonal of the contact's block of W. The hub's share is bounded by that of its strongest direction, which keeps
+  /// the block a multiple of the identity in the tangent plane; the solution does not depend on it.
+  static void fill_block(const Bodies<Y>& bodies, const ContactFrame<D>& frame, std::size_t k, Problem<Y>& problem) {
+    const int i = problem.i[k], j = problem.j[k];
+    double hub = 0;
+    for (const HubMode<D>& mode : problem.hub)
+      hub += mode.inverse_inertia * (mode.direction * frame.branch).squaredNorm();
+    // A grain that meets its own image moves with it: only the cell can part them.
+    const double masses = i == j ? 0 : problem.inverse_mass[i] + problem.inverse_mass[j];
+    const double w_n = masses + hub;
+    problem.inverse_wn[k] = w_n > 0 ? 1 / w_n : 0;
+    if constexpr (Y.friction) {
+      const bool grain_j = j < bodies.grains();
+      problem.arm_i[k] = frame.stretch * bodies.radius[i];
+      problem.arm_j[k] = grain_j ? frame.stretch * bodies.radius[j] : 0;
+      const double arm_i = problem.arm_i[k], arm_j = problem.arm_j[k];
+      const double turning = i == j ? (arm_i + arm_j) * (arm_i + arm_j) * problem.inverse_inertia[i]
+                                    : arm_i * arm_i * problem.inverse_inertia[i] +
+                                          arm_j * arm_j * problem.inverse_inertia[j];
+      problem.inverse_wt[k] = 1 / (w_n + turning);
+    }
+  }
+
+  std::vector<ContactFrame<D>> frames_;
+  std::vector<double> opening_;
+  std::vector<std::uint8_t> active_;
+  std::vector<int> rows_, body_i_, body_j_, row_of_;
+  Colouring colouring_;
+};
+
+}  // namespace galet::cd

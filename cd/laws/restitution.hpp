@@ -1,0 +1,24 @@
+// Moreau's impact law with Signorini's condition, as the offset of one contact: u_N+ + offset >= 0.
+//
+//   touching (g <= 0), or closing within the step (u_N- < 0 and g + dt u_N- <= 0):   offset = e u_N-
+//   otherwise:                                                          offset = max(g / dt, e u_N-)
+//
+// The first line is Newton's law u_N+ >= -e u_N-; the second keeps a pair apart that other contacts push together
+// within the step. Taken over all contacts, v+ is then (1 + e) w - e v- with w the projection of v- on a set that
+// contains 0, so that no step makes kinetic energy when every contact has the same e in [0, 1] and no friction.
+// A pair that separates (u_N- > 0) may come back by at most e u_N- dt in the step: a transient penetration of that
+// size, which the next step's impact removes.
+// g gap, u_N- normal velocity at the start of the step. Source: Moreau 1988; Acary and Brogliato 2008, ch. 10.
+#pragma once
+
+#include <algorithm>
+
+namespace galet::cd {
+
+inline double impact_offset(double gap, double opening_velocity, double restitution, double dt) {
+  const double impact = restitution * opening_velocity;
+  const bool closing = gap <= 0 || (opening_velocity < 0 && gap + dt * opening_velocity <= 0);
+  return closing ? impact : std::max(gap / dt, impact);
+}
+
+}  // namespace galet::cd

@@ -1,0 +1,174 @@
+// Nonsmooth Gauss-Seidel over contact columns, matrix-free, with a momentum step.
+//
+// One sweep goes through the colours; the contacts of a colour share no grain, so threads may take them in any
+// order with the same bits. The hub (the stress-driven cell) is touched by every contact: its velocity is held
+// within a block of contacts, whose impulses are summed in a fixed order and then given to the hub together. A block
+// is small enough that the hub's answer to all of it stays below a fifth of a contact's own W_NN, so that the
+// block-wise treatment converges like the sequential one.
+//
+// Momentum (AGS): after a sweep that took y to r, the next sweep starts from r + beta (r - r_previous), with
+// Nesterov's beta capped at 0.9 and a restart when the sweep's change grows. Velocities and hub are affine in the
+// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 5 to 10 times fewer sweeps in
+// dense assemblies than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
+//
+// Sources: Moreau 1994; Jean 1999; Jourdan, Alart and Jean 1998; momentum after Nesterov 1983 with the restart of
+// O'Donoghue and Candes 2015. Cost per sweep: one visit of each contact.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "cd/laws/signorini_coulomb.hpp"
+#include "cd/problem.hpp"
+#include "cd/residual.hpp"
+#include "cd/solvers/report.hpp"
+
+namespace galet::cd {
+
+template <Layout Y>
+class Nsgs {
+ public:
+  static constexpr int D = Y.dim;
+
+  /// Starts from iterate.reaction with the velocities that belong to it, and leaves the solution there.
+  SolveReport solve(const Problem<Y>& problem, const SolverOptions& options, Iterate<Y>& iterate) {
+    SolveReport report;
+    if (problem.size() == 0) return report;
+    block_ = hub_block(problem);
+    restart_momentum(iterate);
+    int next_check = 1;
+    double change_before = 0;
+    for (int sweep_count = 1;; ++sweep_count) {
+      const ResidualParts change = sweep(problem, iterate);
+      report.sweeps = sweep_count;
+      const bool last = sweep_count >= options.max_sweeps;
+      // The change of one sweep bounds how good the residual can be; testing it first saves most residual passes.
+      const bool promising = change.map <= options.tolerance * options.tolerance * change.impulse;
+      if (last || (promising && sweep_count >= next_check)) {
+        report.residual = residual(problem, iterate, partial_residual_);
+        report.stop = report.residual <= options.tolerance ? StopReason::converged : StopReason::max_iterations;
+        if (last || report.stop == StopReason::converged) return report;
+        next_check = sweep_count + 1 + sweep_count / 16;
+      }
+      extrapolate(iterate, change.map > 1.1 * change_before && change_before > 0);
+      change_before = change.map;
+    }
+  }
+
+ private:
+  /// Number of contacts between two updates of the hub.
+  static std::size_t hub_block(const Problem<Y>& problem) {
+    double strongest = 0;
+    for (const HubMode<D>& mode : problem.hub)
+      strongest = std::max(strongest, mode.inverse_inertia * mode.direction.squaredNorm());
+    if (strongest == 0) return problem.size();
+    double least = 1e300;
+    for (std::size_t k = 0; k < problem.size(); ++k)
+      if (problem.inverse_wn[k] > 0)
+        least = std::min(least, 1 / (problem.inverse_wn[k] * problem.distance[k] * problem.distance[k]));
+    return static_cast<std::size_t>(std::clamp(0.2 * least / strongest, 1.0, static_cast<double>(problem.size())));
+  }
+
+  /// One pass over all contacts. Returns the squared change and the squared impulses, both scaled by W_NN.
+  ResidualParts sweep(const Problem<Y>& problem, Iterate<Y>& iterate) {
+    ResidualParts total;
+    const int groups = static_cast<int>(problem.group.size()) - 1;
+    for (int g = 0; g < groups; ++g) {
+      const bool shared = problem.sequential_tail && g == groups - 1;
+      const std::size_t end = problem.group[g + 1];
+      for (std::size_t begin = problem.group[g]; begin < end; begin += block_)
+        total += sweep_block(problem, iterate, begin, std::min(end, begin + block_), shared);
+    }
+    return total;
+  }
+
+  ResidualParts sweep_block(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t begin, std::size_t end,
+                            bool sequential) {
+    const std::size_t count = end - begin;
+    if (partial_change_.size() < chunk_count(count)) {
+      partial_change_.resize(chunk_count(count));
+      partial_virial_.resize(chunk_count(count));
+    }
+    const auto body = [&](std::size_t chunk, std::size_t from, std::size_t to) {
+      ResidualParts change;
+      Mat<D> virial = Mat<D>::Zero();
+      for (std::size_t k = begin + from; k < begin + to; ++k) change += visit(problem, iterate, k, virial);
+      partial_change_[chunk] = change;
+      partial_virial_[chunk] = virial;
+    };
+    if (sequential)
+      for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk)
+        body(chunk, chunk * chunk_size, std::min(count, (chunk + 1) * chunk_size));
+    else
+      parallel_chunks(count, body);
+    ResidualParts total;
+    Mat<D> virial = Mat<D>::Zero();
+    for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk) {
+      total += partial_change_[chunk];
+      virial += partial_virial_[chunk];
+    }
+    add_to_hub(problem, iterate, virial);
+    return total;
+  }
+
+  static ResidualParts visit(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, Mat<D>& virial) {
+    if (problem.inverse_wn[k] == 0) return {};
+    const Vec<D> u = relative_velocity(problem, iterate, k);
+    const Reaction<Y> before = iterate.reaction[k];
+    const Reaction<Y> after = solve_contact<Y>(problem, k, u, before);
+    const Reaction<Y> change = after - before;
+    const double squared_change = change.squaredNorm();
+    if (squared_change == 0) return {0, after.squaredNorm() / problem.inverse_wn[k]};
+    iterate.reaction[k] = after;
+    const Vec<D> p = impulse_vector<Y>(problem.normal[k], change);
+    add_impulse(problem, iterate, k, p);
+    virial += p * (problem.distance[k] * problem.normal[k]).transpose();
+    return {squared_change / problem.inverse_wn[k], after.squaredNorm() / problem.inverse_wn[k]};
+  }
+
+  void restart_momentum(const Iterate<Y>& iterate) {
+    momentum_ = 1;
+    since_restart_ = 0;
+    previous_ = iterate;
+  }
+
+  void extrapolate(Iterate<Y>& iterate, bool restart) {
+    const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum_ * momentum_));
+    double beta = std::min((momentum_ - 1) / next, 0.9);
+    momentum_ = next;
+    ++since_restart_;
+    if (restart && since_restart_ > 2) {
+      momentum_ = 1;
+      since_restart_ = 0;
+      beta = 0;
+    }
+    move(iterate.reaction, previous_.reaction, beta);
+    move(iterate.velocity, previous_.velocity, beta);
+    if constexpr (Y.friction) move(iterate.spin, previous_.spin, beta);
+    move(iterate.hub_rate, previous_.hub_rate, beta);
+    const Mat<D> gradient = iterate.gradient;
+    iterate.gradient += beta * (gradient - previous_.gradient);
+    previous_.gradient = gradient;
+  }
+
+  /// now += beta (now - before); before = now.
+  template <class Values>
+  static void move(Values& now, Values& before, double beta) {
+    parallel_ranges(now.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const typename Values::value_type here = now[k];
+        if (beta != 0) now[k] += beta * (here - before[k]);
+        before[k] = here;
+      }
+    }, 4096);
+  }
+
+  std::size_t block_ = 1;
+  double momentum_ = 1;
+  int since_restart_ = 0;
+  Iterate<Y> previous_;
+  std::vector<ResidualParts> partial_change_, partial_residual_;
+  std::vector<Mat<D>> partial_virial_;
+};
+
+}  // namespace galet::cd

@@ -1,0 +1,128 @@
+// The bodies of a run in a layout's columns: grains, planes, cell. Both engines hold their state in this form.
+#pragma once
+
+#include "common/core/archive_columns.hpp"
+#include "common/core/column.hpp"
+#include "common/core/layout.hpp"
+#include "common/engine/engine.hpp"
+#include "common/geometry/cell.hpp"
+#include "common/geometry/plane.hpp"
+#include "common/scene/derive.hpp"
+#include "common/scene/sample.hpp"
+
+namespace galet {
+
+template <Layout Y>
+struct Bodies {
+  static constexpr int D = Y.dim;
+
+  Column<Vec<D>> position;
+  Column<Vec<D>> velocity;  ///< fluctuation v
+  Column<double> radius, mass;
+  Column<Spin<D>, Y.friction> spin;
+  Column<double, Y.friction> inertia;  ///< I
+
+  Cell<D> cell;
+  std::vector<CellMode<D>> modes;
+  std::vector<Plane<D>> planes;
+  Vec<D> gravity = Vec<D>::Zero();
+
+  int grains() const { return static_cast<int>(position.size()); }
+  bool stress_driven() const {
+    for (const CellMode<D>& mode : modes)
+      if (mode.stress_driven) return true;
+    return false;
+  }
+
+  void start(const Scene& scene, const Derived& derived, const Sample<D>& sample) {
+    position.assign(sample.position.begin(), sample.position.end());
+    velocity.assign(sample.velocity.begin(), sample.velocity.end());
+    radius.assign(sample.radius.begin(), sample.radius.end());
+    mass.assign(sample.mass.begin(), sample.mass.end());
+    if constexpr (Y.friction) {
+      spin.assign(sample.spin.begin(), sample.spin.end());
+      inertia.resize(mass.size());
+      for (std::size_t i = 0; i < mass.size(); ++i) inertia[i] = inertia_ratio<D> * mass[i] * radius[i] * radius[i];
+    }
+    cell = sample.cell;
+    planes = sample.planes;
+    modes = cell_modes<D>(scene, derived, sample);
+    if (!modes.empty()) cell.rate = velocity_gradient(modes);
+    for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
+  }
+
+  /// Kinetic, rotational, cell and gravity parts of the energy.
+  EnergyParts energy() const {
+    EnergyParts parts;
+    for (int i = 0; i < grains(); ++i) {
+      parts.kinetic += 0.5 * mass[i] * velocity[i].squaredNorm();
+      parts.gravity -= mass[i] * gravity.dot(position[i]);
+      if constexpr (Y.friction) parts.rotational += 0.5 * inertia[i] * squared(spin[i]);
+    }
+    for (const CellMode<D>& mode : modes)
+      if (mode.stress_driven) parts.cell += 0.5 * mode.inertia * mode.rate * mode.rate;
+    return parts;
+  }
+
+  /// The fields of a snapshot that do not depend on the engine.
+  Snapshot<D> view() const {
+    Snapshot<D> shown;
+    shown.cell = &cell;
+    shown.planes = planes;
+    shown.position = position;
+    shown.velocity = velocity;
+    if constexpr (Y.friction) shown.spin = spin;
+    shown.radius = radius;
+    shown.mass = mass;
+    return shown;
+  }
+
+  void save(Archive& archive) const {
+    put_column(archive, "grains.position", position);
+    put_column(archive, "grains.velocity", velocity);
+    put_column(archive, "grains.radius", radius);
+    put_column(archive, "grains.mass", mass);
+    if constexpr (Y.friction) put_column(archive, "grains.spin", spin);
+    std::vector<double>& box = archive.reals["cell.box"];
+    box.assign(cell.box.data(), cell.box.data() + D * D);
+    std::vector<double>& rate = archive.reals["cell.rate"];
+    rate.assign(cell.rate.data(), cell.rate.data() + D * D);
+    std::vector<double>& mode_columns = archive.reals["cell.modes"];
+    mode_columns.clear();
+    for (const CellMode<D>& mode : modes) {
+      mode_columns.insert(mode_columns.end(), {mode.rate, mode.load, mode.inertia});
+    }
+    std::vector<double>& points = archive.reals["planes.point"];
+    points.clear();
+    for (const Plane<D>& plane : planes) append(points, plane.point);
+    archive.integers["layout"] = {Y.dim, Y.friction};
+  }
+
+  void restore(const Archive& archive) {
+    if (integer_column(archive, "layout") != std::vector<std::int64_t>{Y.dim, Y.friction})
+      throw InputError("the checkpoint was written in another layout than " + to_string(Y));
+    take_column(archive, "grains.position", position);
+    take_column(archive, "grains.velocity", velocity);
+    take_column(archive, "grains.radius", radius);
+    take_column(archive, "grains.mass", mass);
+    if constexpr (Y.friction) {
+      take_column(archive, "grains.spin", spin);
+      for (int i = 0; i < grains(); ++i) inertia[i] = inertia_ratio<D> * mass[i] * radius[i] * radius[i];
+    }
+    std::vector<double> numbers(D * D);
+    take_column(archive, "cell.box", numbers);
+    cell.box = Eigen::Map<const Mat<D>>(numbers.data());
+    take_column(archive, "cell.rate", numbers);
+    cell.rate = Eigen::Map<const Mat<D>>(numbers.data());
+    numbers.resize(3 * modes.size());
+    take_column(archive, "cell.modes", numbers);
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      modes[k].rate = numbers[3 * k], modes[k].load = numbers[3 * k + 1], modes[k].inertia = numbers[3 * k + 2];
+    }
+    numbers.resize(D * planes.size());
+    take_column(archive, "planes.point", numbers);
+    for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].point);
+  }
+};
+
+}  // namespace galet

@@ -1,0 +1,182 @@
+// The script holds names and labels between single quotes, where gnuplot expands nothing; gnuplot is started without
+// a shell, in the folder of the files, which are called "./name": no name can be taken for an option or a pipe.
+#include "common/io/figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "common/core/error.hpp"
+#include "common/io/files.hpp"
+
+extern char** environ;
+
+namespace galet {
+
+namespace {
+
+/// Colours that differ for every kind of sight (Okabe and Ito), with a shape of its own for each.
+constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 6};
+
+/// A text between single quotes for gnuplot. Control characters would end the line of the script.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (char letter : text) {
+    if (letter == '\'') result += '\'';
+    result += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
+  }
+  return result + "'";
+}
+
+bool drawable(const Figure& figure, const Series& series, std::size_t k) {
+  const double x = series.x[k], y = series.y[k];
+  return std::isfinite(x) && std::isfinite(y) && (!figure.log_x || x > 0) && (!figure.log_y || y > 0);
+}
+
+std::size_t drawable_count(const Figure& figure, const Series& series) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < series.x.size(); ++k) count += drawable(figure, series, k) ? 1 : 0;
+  return count;
+}
+
+/// One block per series, set apart by two empty lines (gnuplot's "index"). All points are there, also those that a
+/// logarithmic axis can't show.
+std::string data_text(const Figure& figure) {
+  const auto line = [](std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20; }, ' ');
+    return text;
+  };
+  std::string text = fmt::format("# {}\n", line(figure.title));
+  for (const Series& series : figure.series) {
+    const bool errors = !series.y_error.empty();
+    text += fmt::format("# {}\n# {}   {}{}\n", line(series.label), line(figure.x_label), line(figure.y_label),
+                        errors ? "   error" : "");
+    if (series.x.empty()) text += "# no points\nnan nan nan\n";  // keeps the numbering of the blocks
+    for (std::size_t k = 0; k < series.x.size(); ++k) {
+      text += fmt::format("{} {}", series.x[k], series.y[k]);
+      text += errors ? fmt::format(" {}\n", series.y_error[k]) : "\n";
+    }
+    text += "\n\n";
+  }
+  return text;
+}
+
+/// The range of an axis when its points span less than a decade: gnuplot would label no tick of a logarithmic axis.
+std::string axis_text(char axis, bool logarithmic, const std::string& label) {
+  std::string text = fmt::format("set {}label {}\n", axis, quoted(label));
+  if (logarithmic) text += fmt::format("set logscale {0}\nset format {0} '10^{{%L}}'\nset m{0}tics 10\n", axis);
+  return text;
+}
+
+/// One "plot" clause.
+std::string clause(const Figure& figure, std::size_t index, const std::string& data) {
+  const Series& series = figure.series[index];
+  const bool errors = !series.y_error.empty();
+  std::string style = series.line ? (errors ? "yerrorlines" : "linespoints") : (errors ? "yerrorbars" : "points");
+  std::string title = series.label;
+  const std::size_t hidden = series.x.size() - drawable_count(figure, series);
+  if (hidden > 0) title += fmt::format(" ({} points off the axes)", hidden);
+  const std::size_t look = index % colours.size();
+  return fmt::format("{} index {} using {} with {} linecolor rgb '{}' pointtype {} pointsize 0.9 linewidth 1.5 {}",
+                     quoted(data), index, errors ? "1:2:3" : "1:2", style, colours[look], shapes[look],
+                     title.empty() ? "notitle" : "title " + quoted(title));
+}
+
+std::string script_text(const Figure& figure, const std::string& name) {
+  std::string text =
+      fmt::format("# gnuplot script; run it in its own folder: gnuplot {}\nset encoding utf8\nset title {}\n",
+                  quoted(name + ".gp"), quoted(figure.title));
+  text += axis_text('x', figure.log_x, figure.x_label);
+  text += axis_text('y', figure.log_y, figure.y_label);
+  text += "set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1\nset border linewidth 1.2\n";
+  text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nset errorbars 0.8\n";
+  text += "set key outside below center horizontal samplen 2.5\n";
+
+  std::string clauses;
+  for (std::size_t k = 0; k < figure.series.size(); ++k) {
+    if (drawable_count(figure, figure.series[k]) == 0) continue;
+    clauses += (clauses.empty() ? "plot " : ", \\\n     ") + clause(figure, k, "./" + name + ".dat");
+  }
+  if (clauses.empty())
+    clauses = "set label 'no points to show' at graph 0.5, graph 0.5 center\nplot [1:10] [1:10] NaN notitle";
+
+  text += "set terminal svg size 800,600 font 'DejaVu Sans,15' background rgb 'white' enhanced\n";
+  text += fmt::format("set output {}\n{}\n", quoted("./" + name + ".svg"), clauses);
+  text += "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n";
+  text +=
+      "  set terminal pngcairo size 1600,1200 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced\n";
+  text += "} else {\n  set terminal png size 1600,1200 enhanced\n}\n";
+  return text + fmt::format("set output {}\nreplot\nset output\n", quoted("./" + name + ".png"));
+}
+
+std::string read_to_end(int descriptor) {
+  std::string text;
+  std::array<char, 4096> block;
+  while (true) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count > 0)
+      text.append(block.data(), static_cast<std::size_t>(count));
+    else if (count == 0 || errno != EINTR)
+      return text;
+  }
+}
+
+/// Runs gnuplot on a script in `folder`. False when there is no gnuplot; throws RunError with what it printed when
+/// it fails.
+bool run_gnuplot(const std::string& folder, const std::string& script) {
+  std::array<int, 2> pipe_ends{};
+  if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("gnuplot: {}", std::strerror(errno)));
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
+  std::string program = "gnuplot", defaults = "-d", file = "./" + script;  // -d: a user's own settings stay out
+  std::array<char*, 4> arguments = {program.data(), defaults.data(), file.data(), nullptr};
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(pipe_ends[1]);
+  const std::string messages = error == 0 ? read_to_end(pipe_ends[0]) : "";
+  ::close(pipe_ends[0]);
+  if (error == ENOENT) return false;
+  if (error != 0) throw RunError(fmt::format("can't start gnuplot: {}", std::strerror(error)));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw RunError(fmt::format("gnuplot failed on '{}/{}': {}", folder, script, messages));
+  return true;
+}
+
+}  // namespace
+
+std::string write_figure(const std::string& stem, const Figure& figure) {
+  for (const Series& series : figure.series) {
+    require(series.x.size() == series.y.size(), "a series needs as many x as y");
+    require(series.y_error.empty() || series.y_error.size() == series.y.size(), "a series needs an error for each y");
+  }
+  const std::filesystem::path path(stem);
+  const std::string name = path.filename().string();
+  require(!name.empty() && name != "." && name != "..", "the stem of a figure needs a file name");
+  require(std::none_of(name.begin(), name.end(), [](unsigned char letter) { return letter < 0x20; }),
+          "the stem of a figure must not hold control characters");
+  write_file(stem + ".dat", data_text(figure));
+  write_file(stem + ".gp", script_text(figure, name));
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  return run_gnuplot(folder, name + ".gp") ? stem + ".svg" : "";
+}
+
+}  // namespace galet

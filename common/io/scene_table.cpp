@@ -1,0 +1,420 @@
+// The rows of the table. A default is not repeated here: it is read from a default Scene.
+#include "common/io/scene_fields.hpp"
+
+namespace galet {
+
+namespace {
+
+using Rows = std::vector<SceneField>;
+
+Interval above(double low) { return {.low = low, .low_open = true}; }
+Interval at_least(double low) { return {.low = low}; }
+Interval between(double low, double high) { return {.low = low, .high = high}; }
+
+void add_top(Rows& rows) {
+  rows.push_back({.path = "title",
+                  .target = [](Scene& s) -> FieldTarget { return &s.title; },
+                  .doc = "one line for tables and figures"});
+  rows.push_back({.path = "dimension",
+                  .target = [](Scene& s) -> FieldTarget { return &s.dimension; },
+                  .symbol = "D",
+                  .range = between(2, 3),
+                  .doc = "2: disks, 3: spheres"});
+  rows.push_back({.path = "seed",
+                  .target = [](Scene& s) -> FieldTarget { return &s.seed; },
+                  .range = at_least(0),
+                  .doc = "of all random numbers: same scene and seed, same bits"});
+  rows.push_back({.path = "units",
+                  .target = [](Scene& s) -> FieldTarget { return &s.reduced_units; },
+                  .choices = {"SI", "reduced"},
+                  .doc = "`reduced`: plain numbers in any consistent system; `SI`: plain numbers are in SI and "
+                         "values may be strings with a unit"});
+  rows.push_back({.path = "engine",
+                  .target = [](Scene& s) -> FieldTarget { return &s.engine; },
+                  .choices = {"md", "cd"},
+                  .doc = "`md`: molecular dynamics with finite stiffness; `cd`: contact dynamics with rigid grains"});
+}
+
+void add_grains(Rows& rows) {
+  rows.push_back({.path = "grains.count",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.count; },
+                  .symbol = "N",
+                  .range = at_least(1),
+                  .fallback = "needed, except with listed grains or a packing file",
+                  .doc = "number of grains"});
+  rows.push_back({.path = "grains.diameter",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.mean; },
+                  .symbol = "d",
+                  .quantity = Quantity::length,
+                  .range = above(0),
+                  .doc = "a number: all grains have this diameter; an inline table: a distribution, see "
+                         "[grains.diameter]"});
+  rows.push_back({.path = "grains.density",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.density; },
+                  .symbol = "rho",
+                  .quantity = Quantity::density,
+                  .range = above(0),
+                  .doc = "mass per volume (2D: per area) of the grains' matter; excludes `mass`"});
+  rows.push_back({.path = "grains.mass",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.mass; },
+                  .symbol = "m",
+                  .quantity = Quantity::mass,
+                  .range = above(0),
+                  .fallback = "1 (SI: one of density and mass is needed)",
+                  .doc = "mass of a grain of mean diameter; excludes `density`"});
+}
+
+void add_diameter(Rows& rows) {
+  rows.push_back({.path = "grains.diameter.distribution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.kind; },
+                  .choices = {"monodisperse", "uniform", "discrete"},
+                  .required = true,
+                  .doc = "of the diameters, by number"});
+  rows.push_back({.path = "grains.diameter.mean",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.mean; },
+                  .quantity = Quantity::length,
+                  .range = above(0),
+                  .doc = "monodisperse, uniform: the mean diameter d"});
+  rows.push_back({.path = "grains.diameter.spread",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.spread; },
+                  .range = {.low = 0, .high = 1, .high_open = true},
+                  .doc = "uniform: diameters lie within mean (1 - spread) and mean (1 + spread)"});
+  rows.push_back({.path = "grains.diameter.values",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.diameters; },
+                  .quantity = Quantity::length,
+                  .range = above(0),
+                  .doc = "discrete: the diameters"});
+  rows.push_back({.path = "grains.diameter.fractions",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.fractions; },
+                  .range = {.low = 0, .high = 1, .low_open = true},
+                  .doc = "discrete: the share of each by number; their sum is 1"});
+}
+
+void add_listed_grains(Rows& rows) {
+  rows.push_back({.path = "grain.position",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().position; },
+                  .symbol = "x",
+                  .quantity = Quantity::length,
+                  .required = true,
+                  .doc = "of the centre"});
+  rows.push_back({.path = "grain.velocity",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().velocity; },
+                  .symbol = "v",
+                  .quantity = Quantity::velocity,
+                  .fallback = "at rest",
+                  .doc = "of the centre, with respect to the cell's own motion"});
+  rows.push_back({.path = "grain.spin",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().spin; },
+                  .symbol = "w",
+                  .quantity = Quantity::angular_velocity,
+                  .number_too = true,
+                  .fallback = "none",
+                  .doc = "angular velocity: a number in 2D, three components in 3D; needs friction"});
+  rows.push_back({.path = "grain.diameter",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().diameter; },
+                  .symbol = "d",
+                  .quantity = Quantity::length,
+                  .range = above(0),
+                  .doc = "of this grain"});
+}
+
+void add_material(Rows& rows) {
+  rows.push_back({.path = "material.friction",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.friction; },
+                  .symbol = "mu",
+                  .range = at_least(0),
+                  .doc = "Coulomb coefficient; 0: frictionless grains, whose rotations are not computed"});
+  rows.push_back({.path = "material.restitution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.restitution; },
+                  .symbol = "e",
+                  .range = between(0, 1),
+                  .fallback = "needed, or `damping_ratio`",
+                  .doc = "normal restitution of a head-on collision of two grains; above 0 for md"});
+  rows.push_back({.path = "material.damping_ratio",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.damping_ratio; },
+                  .symbol = "zeta",
+                  .range = at_least(0),
+                  .fallback = "needed, or `restitution`",
+                  .doc = "damping constant of a contact / its critical value 2 sqrt(m* K_N); cd uses the restitution "
+                         "that follows from it"});
+  rows.push_back({.path = "material.stiffness_level",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.stiffness_level; },
+                  .symbol = "kappa",
+                  .range = above(0),
+                  .fallback = "md: needed, or `normal_stiffness`",
+                  .doc = "K_N / (P d^(D-2)): deflections are about d / kappa; needs `loading.pressure`"});
+  rows.push_back({.path = "material.normal_stiffness",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.normal_stiffness; },
+                  .symbol = "K_N",
+                  .quantity = Quantity::stiffness,
+                  .range = above(0),
+                  .fallback = "md: needed, or `stiffness_level`",
+                  .doc = "normal force per deflection"});
+  rows.push_back({.path = "material.tangential_stiffness_ratio",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.tangential_stiffness_ratio; },
+                  .range = above(0),
+                  .doc = "K_T / K_N"});
+  rows.push_back({.path = "material.viscous_convention",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.convention; },
+                  .choices = {"elastic", "total"},
+                  .doc = "`elastic`: only the elastic parts enter Coulomb's inequality, the total normal force may "
+                         "attract; `total`: viscous parts are added before, the normal force is clipped at 0"});
+}
+
+void add_initial(Rows& rows) {
+  rows.push_back({.path = "initial.kind",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.kind; },
+                  .choices = {"lattice", "gas", "compressed_gas", "packing", "listed"},
+                  .fallback = "`\"listed\"` if there are [[grain]] entries, else `\"gas\"`",
+                  .doc = "`lattice`: square or cubic, slightly shaken; `gas`: random, no two grains touching; "
+                         "`compressed_gas`: a gas compressed isotropically to `loading.pressure` before the run; "
+                         "`packing`: read from a file; `listed`: the [[grain]] entries"});
+  rows.push_back({.path = "initial.solid_fraction",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.solid_fraction; },
+                  .symbol = "Phi",
+                  .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},
+                  .fallback = "0.5; 0.3 for a gas of spheres",
+                  .doc = "lattice, gas, compressed_gas: where the grains are first placed; a gas reaches 0.5 in 2D "
+                         "and 0.33 in 3D, a lattice of equal grains 0.78 and 0.52"});
+  rows.push_back({.path = "initial.speed",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.speed; },
+                  .quantity = Quantity::velocity,
+                  .range = at_least(0),
+                  .doc = "root mean square of each velocity component at the start"});
+  rows.push_back({.path = "initial.file",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.file; },
+                  .fallback = "packing: needed",
+                  .doc = "packing: a CSV file or a LAMMPS data file, its path relative to the scene file"});
+  rows.push_back({.path = "initial.friction",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.friction; },
+                  .range = at_least(0),
+                  .fallback = "the material's",
+                  .doc = "compressed_gas: friction while compressing; 0 gives the densest packings"});
+}
+
+void add_cell(Rows& rows) {
+  rows.push_back({.path = "cell.periodic",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cell.periodic; },
+                  .fallback = "true in each direction",
+                  .doc = "per direction"});
+  rows.push_back(
+      {.path = "cell.size",
+       .target = [](Scene& s) -> FieldTarget { return &s.cell.size; },
+       .quantity = Quantity::length,
+       .range = above(0),
+       .fallback = "from count, solid fraction and aspect",
+       .doc = "edge lengths; excludes `aspect` and `initial.solid_fraction`; needed with [[grain]] entries"});
+  rows.push_back({.path = "cell.aspect",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cell.aspect; },
+                  .range = above(0),
+                  .fallback = "1 in each direction",
+                  .doc = "edge lengths in proportion to each other"});
+  rows.push_back({.path = "cell.inertia_factor",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cell.inertia_factor; },
+                  .range = above(0),
+                  .doc = "multiplies the inertia of the stress-driven components; results must not depend on it"});
+}
+
+void add_planes(Rows& rows) {
+  rows.push_back({.path = "plane.point",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().point; },
+                  .quantity = Quantity::length,
+                  .required = true,
+                  .doc = "a point of the plane"});
+  rows.push_back({.path = "plane.normal",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().normal; },
+                  .required = true,
+                  .doc = "points to the grains' side; any length but 0"});
+  rows.push_back({.path = "plane.velocity",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().velocity; },
+                  .quantity = Quantity::velocity,
+                  .fallback = "at rest",
+                  .doc = "imposed velocity"});
+}
+
+void add_loading(Rows& rows) {
+  rows.push_back({.path = "loading.kind",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.kind; },
+                  .choices = {"none", "plane_shear", "isotropic", "drives"},
+                  .doc = "`none`: the cell does not move; `plane_shear`: L_xy given, sigma_yy held at `pressure` (the "
+                         "volume held if no pressure is given); `isotropic`: mean stress held at `pressure`; "
+                         "`drives`: the [[drive]] entries. All but `none` need a cell periodic in each direction"});
+  rows.push_back({.path = "loading.pressure",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.pressure; },
+                  .symbol = "P",
+                  .quantity = Quantity::pressure,
+                  .range = above(0),
+                  .doc = "the pressure held, and the unit of stress in kappa and I"});
+  rows.push_back({.path = "loading.shear_rate",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.shear_rate; },
+                  .quantity = Quantity::rate,
+                  .range = above(0),
+                  .fallback = "plane_shear: needed, or `inertial_number`",
+                  .doc = "plane_shear: L_xy"});
+  rows.push_back({.path = "loading.inertial_number",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.inertial_number; },
+                  .symbol = "I",
+                  .range = above(0),
+                  .fallback = "plane_shear: needed, or `shear_rate`",
+                  .doc = "plane_shear: L_xy sqrt(m / (P d^(D-2)))"});
+  rows.push_back({.path = "loading.gravity",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.gravity; },
+                  .symbol = "g",
+                  .quantity = Quantity::acceleration,
+                  .fallback = "none",
+                  .doc = "acceleration, per direction; 0 in periodic directions"});
+}
+
+void add_drives(Rows& rows) {
+  rows.push_back({.path = "drive.component",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().component; },
+                  .required = true,
+                  .doc = "`\"xx\"`, `\"xy\"`, ... of the velocity gradient L, or `\"isotropic\"`: one rate for all "
+                         "diagonal components, whose stress is the mean normal stress"});
+  rows.push_back({.path = "drive.rate",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().rate; },
+                  .quantity = Quantity::rate,
+                  .fallback = "needed, or `stress`",
+                  .doc = "the component's value, < 0 in compression"});
+  rows.push_back({.path = "drive.stress",
+                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().stress; },
+                  .quantity = Quantity::pressure,
+                  .fallback = "needed, or `rate`",
+                  .doc = "the stress that the component is held at, > 0 in compression"});
+}
+
+void add_engines(Rows& rows) {
+  rows.push_back({.path = "md.dt",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.dt; },
+                  .quantity = Quantity::time,
+                  .range = above(0),
+                  .fallback = "from `steps_per_contact`",
+                  .doc = "time step"});
+  rows.push_back({.path = "md.steps_per_contact",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.steps_per_contact; },
+                  .range = above(0),
+                  .doc = "time steps in the shortest collision of two grains; excludes `dt`"});
+  rows.push_back({.path = "md.allow_unsafe_dt",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.allow_unsafe_dt; },
+                  .doc = "run although the time step is above its stability bound"});
+  rows.push_back({.path = "cd.dt",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.dt; },
+                  .quantity = Quantity::time,
+                  .range = above(0),
+                  .fallback = "from `dt_factor`",
+                  .doc = "time step"});
+  rows.push_back(
+      {.path = "cd.dt_factor",
+       .target = [](Scene& s) -> FieldTarget { return &s.cd.dt_factor; },
+       .range = above(0),
+       .doc = "time step / the shortest of inertial time, 1 / rate, d / speed and sqrt(d / g); excludes `dt`"});
+  rows.push_back({.path = "cd.tolerance",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.tolerance; },
+                  .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},
+                  .doc = "relative error on the contact impulses at which the solver stops"});
+  rows.push_back({.path = "cd.max_sweeps",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.max_sweeps; },
+                  .range = at_least(1),
+                  .doc = "Gauss-Seidel sweeps per step at most"});
+  rows.push_back({.path = "cd.penetration",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.penetration; },
+                  .range = above(0),
+                  .doc = "largest penetration that drift may reach, in units of d"});
+}
+
+void add_run(Rows& rows) {
+  rows.push_back({.path = "run.duration",
+                  .target = [](Scene& s) -> FieldTarget { return &s.run.duration; },
+                  .quantity = Quantity::time,
+                  .range = above(0),
+                  .fallback = "needed, or `strain`",
+                  .doc = "time simulated"});
+  rows.push_back({.path = "run.strain",
+                  .target = [](Scene& s) -> FieldTarget { return &s.run.strain; },
+                  .range = above(0),
+                  .fallback = "needed, or `duration`",
+                  .doc = "shear strain simulated, where L_xy is given"});
+  rows.push_back({.path = "run.average_from",
+                  .target = [](Scene& s) -> FieldTarget { return &s.run.average_from; },
+                  .range = {.low = 0, .high = 1, .high_open = true},
+                  .doc = "measures are averaged from this fraction of the run on"});
+  rows.push_back({.path = "run.samples",
+                  .target = [](Scene& s) -> FieldTarget { return &s.run.samples; },
+                  .range = at_least(1),
+                  .doc = "number of measures over the run"});
+  rows.push_back({.path = "run.equilibrium",
+                  .target = [](Scene& s) -> FieldTarget { return &s.run.equilibrium; },
+                  .range = above(0),
+                  .fallback = "run to the end",
+                  .doc = "isotropic: stop once the stress is within 1 % and the kinetic energy per grain is below "
+                         "this times P d^D"});
+}
+
+void add_compare(Rows& rows) {
+  rows.push_back({.path = "compare.inertial_numbers",
+                  .target = [](Scene& s) -> FieldTarget { return &s.compare.inertial_numbers; },
+                  .range = above(0),
+                  .fallback = "the scene's own",
+                  .doc = "values of I; needs `loading.inertial_number`"});
+  rows.push_back({.path = "compare.stiffness_levels",
+                  .target = [](Scene& s) -> FieldTarget { return &s.compare.stiffness_levels; },
+                  .range = above(0),
+                  .fallback = "the scene's own",
+                  .doc = "md: values of kappa; needs `loading.pressure`"});
+  rows.push_back({.path = "compare.cd_dt_factors",
+                  .target = [](Scene& s) -> FieldTarget { return &s.compare.cd_dt_factors; },
+                  .range = above(0),
+                  .fallback = "the scene's own",
+                  .doc = "cd: values of `cd.dt_factor`; excludes `cd.dt`"});
+  rows.push_back({.path = "compare.cd_tolerances",
+                  .target = [](Scene& s) -> FieldTarget { return &s.compare.cd_tolerances; },
+                  .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},
+                  .fallback = "the scene's own",
+                  .doc = "cd: values of `cd.tolerance`"});
+}
+
+}  // namespace
+
+const std::vector<SceneField>& scene_fields() {
+  static const Rows table = [] {
+    Rows rows;
+    for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_material, add_initial, add_cell,
+                           add_planes, add_loading, add_drives, add_engines, add_run, add_compare})
+      add(rows);
+    return rows;
+  }();
+  return table;
+}
+
+const std::vector<SceneSection>& scene_sections() {
+  static const std::vector<SceneSection> sections = {
+      {.name = "", .doc = "Keys before the first table."},
+      {.name = "grains", .doc = "The grains: how many, how large, how heavy."},
+      {.name = "grains.diameter",
+       .doc = "Distribution of the diameters, written as an inline table: "
+              "`diameter = {distribution = \"uniform\", mean = 1.0, spread = 0.2}` or "
+              "`diameter = {distribution = \"discrete\", values = [1.0, 1.4], fractions = [0.5, 0.5]}`."},
+      {.name = "grain",
+       .list = true,
+       .doc = "A grain placed by hand, one table per grain.",
+       .append = [](Scene& s) { s.grains.listed.emplace_back(); }},
+      {.name = "material", .doc = "Contacts of grains with each other and with planes."},
+      {.name = "initial", .doc = "The state in which the run starts."},
+      {.name = "cell", .doc = "The cell that holds the grains."},
+      {.name = "plane",
+       .list = true,
+       .doc = "A plane boundary, one table per plane; parallel to the periodic directions.",
+       .append = [](Scene& s) { s.planes.emplace_back(); }},
+      {.name = "loading", .doc = "What is imposed on the sample."},
+      {.name = "drive",
+       .list = true,
+       .doc = "One component of the cell's motion, driven in rate or in stress; for `loading.kind = \"drives\"`.",
+       .append = [](Scene& s) { s.loading.drives.emplace_back(); }},
+      {.name = "md", .doc = "Numerical parameters of the soft engine; a scene for cd may have them too."},
+      {.name = "cd", .doc = "Numerical parameters of the rigid engine; a scene for md may have them too."},
+      {.name = "run", .doc = "How long, and what is averaged. One of `duration` and `strain` is needed."},
+      {.name = "compare", .doc = "What `galet compare` sweeps."}};
+  return sections;
+}
+
+}  // namespace galet

@@ -1,0 +1,370 @@
+#include "common/neighbour/verlet_list.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "common/core/error.hpp"
+#include "common/core/parallel.hpp"
+#include "common/geometry/contact_frame.hpp"
+
+namespace galet {
+
+namespace {
+
+template <int D>
+Image<D> add(const Image<D>& a, const Image<D>& b) {
+  Image<D> sum;
+  for (int k = 0; k < D; ++k) sum[k] = a[k] + b[k];
+  return sum;
+}
+
+template <int D>
+Image<D> negative(const Image<D>& a) {
+  Image<D> opposite;
+  for (int k = 0; k < D; ++k) opposite[k] = -a[k];
+  return opposite;
+}
+
+template <int D>
+bool first_nonzero_positive(const Image<D>& image) {
+  for (int k = 0; k < D; ++k)
+    if (image[k] != 0) return image[k] > 0;
+  return false;
+}
+
+template <int D>
+double least_singular_value(const Mat<D>& matrix) {
+  Eigen::SelfAdjointEigenSolver<Mat<D>> squares;
+  squares.computeDirect(matrix.transpose() * matrix, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, squares.eigenvalues()[0]));
+}
+
+}  // namespace
+
+template <int D>
+void VerletList<D>::configure(double range, double skin) {
+  require(range >= 0 && skin > 0, "a neighbour list needs range >= 0 and skin > 0");
+  range_ = range;
+  skin_ = skin;
+}
+
+template <int D>
+bool VerletList<D>::expired(std::span<const Vec<D>> position, const Cell<D>& cell, std::span<const Plane<D>> planes,
+                            double reserve) const {
+  if (builds_ == 0) return true;
+  const Mat<D> deformation = cell.box * box_reference_.inverse();
+  const bool rigid_cell = cell.box == box_reference_;
+  double largest = 0, largest_true = 0;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vec<D> affine = rigid_cell ? reference_[i] : Vec<D>(deformation * reference_[i]);
+    const double moved = (position[i] - affine).squaredNorm();
+    if (moved != moved) return true;  // the build says which grain is lost
+    largest = std::max(largest, moved);
+    if (!planes.empty()) largest_true = std::max(largest_true, (position[i] - reference_[i]).squaredNorm());
+  }
+  const double shrink = rigid_cell ? 0 : std::min(0.0, least_singular_value<D>(deformation) - 1);
+  const double slack = skin_ + shrink * (2 * largest_radius_ + range_ + skin_);
+  if (!(slack >= 2 * std::sqrt(largest) + reserve)) return true;
+  double plane_moved = 0;
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    plane_moved = std::max(plane_moved, (planes[p].point - plane_reference_[p]).norm());
+  return !planes.empty() && skin_ < std::sqrt(largest_true) + plane_moved + reserve;
+}
+
+template <int D>
+void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
+  Eigen::Matrix<int, D, D> remap = tilt_reduction(cell);
+  const Eigen::Matrix<int, D, D> identity = Eigen::Matrix<int, D, D>::Identity();
+  Eigen::Matrix<int, D, D> inverse_remap = identity;
+  if (remap != identity) {
+    cell.box = cell.box * remap.template cast<double>();
+    const Mat<D> inverse = remap.template cast<double>().inverse();
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) inverse_remap(a, b) = static_cast<int>(std::lround(inverse(a, b)));
+  }
+  const Mat<D> to_fraction = cell.box.inverse();
+  wraps_.assign(position.size(), Image<D>{});
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!position[i].allFinite()) throw RunError(fmt::format("the position of grain {} is not finite", i));
+    const Vec<D> fraction = to_fraction * position[i];
+    for (int a = 0; a < D; ++a)
+      if (cell.periodic[a]) wraps_[i][a] = -static_cast<int>(std::floor(fraction[a]));
+    position[i] += lattice<D>(cell.box, wraps_[i]);
+  }
+  carry_rows(inverse_remap);
+}
+
+/// Rewrites the images of the present pairs for the remapped cell and the wrapped grains, and finds the order in
+/// which they are sorted again: x_j + box image = x_j' + box' image' with x' = x + box' wrap.
+template <int D>
+void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
+  old_pairs_ = pairs_;
+  old_flipped_.assign(old_pairs_.size(), 0);
+  const int grains = static_cast<int>(wraps_.size());
+  for (std::size_t row = 0; row < old_pairs_.size(); ++row) {
+    const int i = old_pairs_.i[row], j = old_pairs_.j[row];
+    if (j >= grains) continue;
+    Image<D>& image = old_pairs_.image[row];
+    Image<D> remapped{};
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) remapped[a] += inverse_remap(a, b) * image[b];
+    image = add<D>(add<D>(remapped, wraps_[i]), negative<D>(wraps_[j]));
+    if (i == j && !first_nonzero_positive<D>(image)) {
+      image = negative<D>(image);
+      old_flipped_[row] = 1;
+    }
+  }
+  old_order_.resize(old_pairs_.size());
+  std::iota(old_order_.begin(), old_order_.end(), 0);
+  const auto before = [this](int a, int b) {
+    if (old_pairs_.i[a] != old_pairs_.i[b]) return old_pairs_.i[a] < old_pairs_.i[b];
+    if (old_pairs_.j[a] != old_pairs_.j[b]) return old_pairs_.j[a] < old_pairs_.j[b];
+    return old_pairs_.image[a] < old_pairs_.image[b];
+  };
+  // Only several images of one pair can have changed places, which is rare.
+  if (!std::is_sorted(old_order_.begin(), old_order_.end(), before))
+    std::sort(old_order_.begin(), old_order_.end(), before);
+}
+
+template <int D>
+void VerletList<D>::fill_bins(std::span<const Vec<D>> position, const Cell<D>& cell, double cutoff) {
+  const Mat<D> to_fraction = cell.box.inverse();
+  const Vec<D> widths = face_distances<D>(cell.box);
+  Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::max()), high = -low;
+  for (const Vec<D>& x : position) {
+    const Vec<D> fraction = to_fraction * x;
+    low = low.cwiseMin(fraction);
+    high = high.cwiseMax(fraction);
+  }
+  // More bins than a few per grain only cost time (dilute gases, grains far from the others).
+  const int most = 1 + static_cast<int>(2 * std::pow(static_cast<double>(position.size()), 1.0 / D));
+  std::size_t total = 1;
+  for (int a = 0; a < D; ++a) {
+    origin_of_bins_[a] = cell.periodic[a] ? 0 : low[a];
+    extent_of_bins_[a] = cell.periodic[a] ? 1 : std::max(1e-300, high[a] - low[a]);
+    const double extent = extent_of_bins_[a] * widths[a];
+    bins_[a] = static_cast<int>(std::clamp(std::floor(extent / cutoff), 1.0, static_cast<double>(most)));
+    reach_[a] = cell.periodic[a] ? static_cast<int>(std::ceil(cutoff * bins_[a] / extent)) : 1;
+    total *= bins_[a];
+  }
+  bin_of_.resize(position.size());
+  bin_start_.assign(total + 1, 0);
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vec<D> fraction = to_fraction * position[i];
+    int bin = 0;
+    for (int a = D - 1; a >= 0; --a) {
+      const double along = (fraction[a] - origin_of_bins_[a]) / extent_of_bins_[a];
+      bin = bin * bins_[a] + std::clamp(static_cast<int>(along * bins_[a]), 0, bins_[a] - 1);
+    }
+    bin_of_[i] = bin;
+    ++bin_start_[bin + 1];
+  }
+  std::partial_sum(bin_start_.begin(), bin_start_.end(), bin_start_.begin());
+  bin_grains_.resize(position.size());
+  std::vector<int>& cursor = found_count_;
+  cursor.assign(bin_start_.begin(), bin_start_.end() - 1);
+  for (std::size_t i = 0; i < position.size(); ++i) bin_grains_[cursor[bin_of_[i]]++] = static_cast<int>(i);
+}
+
+template <int D>
+void VerletList<D>::search_bin(int i, int bin, const Image<D>& image, std::span<const Vec<D>> position,
+                               std::span<const double> radius, const Cell<D>& cell,
+                               std::vector<Neighbour>& found) const {
+  const Vec<D> shift = lattice<D>(cell.box, image) - position[i];
+  for (int k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k) {
+    const int j = bin_grains_[k];
+    if (j < i || (j == i && !first_nonzero_positive<D>(image))) continue;
+    const Vec<D> branch = position[j] + shift;
+    const double cutoff = radius[i] + radius[j] + range_ + skin_;
+    const double squared_distance = branch.squaredNorm();
+    if (squared_distance >= cutoff * cutoff) continue;
+    const double overlap = radius[i] + radius[j] - std::sqrt(squared_distance);
+    if (overlap > 0.5 * std::min(radius[i], radius[j]))
+      throw RunError(fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
+                                 "contact is too soft or the time step too large", i, j, overlap));
+    found.push_back({j, image});
+  }
+}
+
+template <int D>
+void VerletList<D>::search_grain(int i, std::span<const Vec<D>> position, std::span<const double> radius,
+                                 const Cell<D>& cell, std::span<const Plane<D>> planes,
+                                 std::vector<Neighbour>& found) const {
+  std::array<int, D> home, offset;
+  for (int a = 0, bin = bin_of_[i]; a < D; bin /= bins_[a], ++a) home[a] = bin % bins_[a];
+  for (int a = 0; a < D; ++a) offset[a] = -reach_[a];
+  const std::size_t begin = found.size();
+  for (bool more = true; more;) {
+    int bin = 0;
+    bool inside = true;
+    Image<D> image{};
+    for (int a = D - 1; a >= 0; --a) {
+      int place = home[a] + offset[a];
+      if (cell.periodic[a]) {
+        image[a] = place >= 0 ? place / bins_[a] : -((bins_[a] - 1 - place) / bins_[a]);
+        place -= image[a] * bins_[a];
+      } else if (place < 0 || place >= bins_[a]) {
+        inside = false;
+      }
+      bin = bin * bins_[a] + place;
+    }
+    if (inside) search_bin(i, bin, image, position, radius, cell, found);
+    more = false;
+    for (int a = 0; a < D && !more; ++a) {
+      more = ++offset[a] <= reach_[a];
+      if (!more) offset[a] = -reach_[a];
+    }
+  }
+  std::sort(found.begin() + begin, found.end());
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const ContactFrame<D> frame = plane_frame<D>(position[i], radius[i], planes[p]);
+    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind plane {}", i, p));
+    if (frame.gap < range_ + skin_) found.push_back({static_cast<int>(position.size() + p), Image<D>{}});
+  }
+}
+
+template <int D>
+void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+                           std::span<const Plane<D>> planes) {
+  const std::size_t grains = position.size();
+  chunk_found_.resize(chunk_count(grains));
+  found_count_.assign(grains, 0);
+  // An exception must not leave a parallel region: each chunk keeps its own first failure.
+  std::vector<std::string> failure(chunk_count(grains));
+  parallel_chunks(grains, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    std::vector<Neighbour>& found = chunk_found_[chunk];
+    found.clear();
+    try {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t before = found.size();
+        search_grain(static_cast<int>(i), position, radius, cell, planes, found);
+        found_count_[i] = static_cast<int>(found.size() - before);
+      }
+    } catch (const RunError& error) {
+      failure[chunk] = error.what();
+    }
+  });
+  for (const std::string& message : failure)
+    if (!message.empty()) throw RunError(message);
+}
+
+template <int D>
+void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
+                          std::span<const Plane<D>> planes) {
+  wrap(position, cell);
+  largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
+  if (!position.empty()) {
+    fill_bins(position, cell, 2 * largest_radius_ + range_ + skin_);
+    search(position, radius, cell, planes);
+  }
+  std::size_t total = 0;
+  for (const auto& found : chunk_found_) total += found.size();
+  pairs_.i.resize(total), pairs_.j.resize(total), pairs_.image.resize(total);
+  std::size_t row = 0;
+  for (std::size_t chunk = 0, i = 0; chunk < chunk_found_.size(); ++chunk) {
+    std::size_t taken = 0;
+    for (const std::size_t end = std::min(position.size(), (chunk + 1) * chunk_size); i < end; ++i) {
+      for (int k = 0; k < found_count_[i]; ++k, ++row, ++taken) {
+        pairs_.i[row] = static_cast<int>(i);
+        pairs_.j[row] = chunk_found_[chunk][taken].j;
+        pairs_.image[row] = chunk_found_[chunk][taken].image;
+      }
+    }
+  }
+  index_rows(static_cast<int>(position.size()));
+  reference_.assign(position.begin(), position.end());
+  box_reference_ = cell.box;
+  plane_reference_.clear();
+  for (const Plane<D>& plane : planes) plane_reference_.push_back(plane.point);
+  ++builds_;
+}
+
+/// Row indices by grain, and the match between new and old rows (both sorted by (i, j, image)).
+template <int D>
+void VerletList<D>::index_rows(int grains) {
+  const std::size_t rows = pairs_.size();
+  first_.assign(grains + 1, 0);
+  second_.assign(grains + 1, 0);
+  for (std::size_t row = 0; row < rows; ++row) {
+    ++first_[pairs_.i[row] + 1];
+    if (pairs_.j[row] < grains) ++second_[pairs_.j[row] + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::partial_sum(second_.begin(), second_.end(), second_.begin());
+  rows_of_second_.resize(second_.back());
+  found_count_.assign(second_.begin(), second_.end() - 1);
+  for (std::size_t row = 0; row < rows; ++row)
+    if (pairs_.j[row] < grains) rows_of_second_[found_count_[pairs_.j[row]]++] = static_cast<int>(row);
+
+  origin_.assign(rows, -1);
+  flipped_.assign(rows, 0);
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto key = std::tie(pairs_.i[row], pairs_.j[row], pairs_.image[row]);
+    const auto old_key = [&](std::size_t at) {
+      const int old = old_order_[at];
+      return std::tie(old_pairs_.i[old], old_pairs_.j[old], old_pairs_.image[old]);
+    };
+    while (k < old_order_.size() && old_key(k) < key) ++k;
+    if (k < old_order_.size() && old_key(k) == key) {
+      origin_[row] = old_order_[k];
+      flipped_[row] = old_flipped_[old_order_[k]];
+    }
+  }
+}
+
+template <int D>
+void VerletList<D>::save(Archive& archive) const {
+  auto& pairs = archive.integers["neighbours.pairs"];
+  pairs.clear();
+  for (std::size_t row = 0; row < pairs_.size(); ++row) {
+    pairs.push_back(pairs_.i[row]);
+    pairs.push_back(pairs_.j[row]);
+    for (int a = 0; a < D; ++a) pairs.push_back(pairs_.image[row][a]);
+  }
+  archive.integers["neighbours.builds"] = {builds_};
+  auto& reals = archive.reals["neighbours.reference"];
+  reals.assign({range_, skin_, largest_radius_});
+  for (const Vec<D>& x : reference_) reals.insert(reals.end(), x.begin(), x.end());
+  for (const Vec<D>& x : plane_reference_) reals.insert(reals.end(), x.begin(), x.end());
+  reals.insert(reals.end(), box_reference_.data(), box_reference_.data() + D * D);
+}
+
+template <int D>
+void VerletList<D>::restore(const Archive& archive, int grains) {
+  const auto& pairs = integer_column(archive, "neighbours.pairs");
+  const auto& reals = real_column(archive, "neighbours.reference");
+  const std::size_t rows = pairs.size() / (2 + D);
+  if (reals.size() < 3 + static_cast<std::size_t>(grains) * D + D * D || pairs.size() % (2 + D) != 0)
+    throw InputError("the checkpoint's neighbour list does not fit its grains");
+  pairs_.i.resize(rows), pairs_.j.resize(rows), pairs_.image.resize(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::int64_t* entry = pairs.data() + row * (2 + D);
+    pairs_.i[row] = static_cast<int>(entry[0]);
+    pairs_.j[row] = static_cast<int>(entry[1]);
+    if (pairs_.i[row] < 0 || pairs_.i[row] >= grains || pairs_.j[row] < 0)
+      throw InputError("the checkpoint's neighbour list names a grain that does not exist");
+    for (int a = 0; a < D; ++a) pairs_.image[row][a] = static_cast<int>(entry[2 + a]);
+  }
+  builds_ = integer_column(archive, "neighbours.builds").at(0);
+  range_ = reals[0], skin_ = reals[1], largest_radius_ = reals[2];
+  const std::size_t planes = (reals.size() - 3 - D * D) / D - grains;
+  const double* from = reals.data() + 3;
+  reference_.resize(grains), plane_reference_.resize(planes);
+  for (Vec<D>& x : reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
+  for (Vec<D>& x : plane_reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
+  box_reference_ = Eigen::Map<const Mat<D>>(from);
+  old_pairs_ = {};
+  old_order_.clear();
+  index_rows(grains);
+}
+
+template class VerletList<2>;
+template class VerletList<3>;
+
+}  // namespace galet

@@ -1,0 +1,119 @@
+// Verlet list of the pairs that may come into contact: grain-grain (with the image of the second grain) and
+// grain-plane.
+//
+// A pair is listed when its gap is below `range + skin` at the time of building. The list is valid as long as no
+// pair that is not listed can have come within `range`. With F the deformation of the cell since then and
+// s_i = x_i - F x_i(then) the non-affine displacements, a branch vector is F b(then) + s_j - s_i, so that the list
+// holds while
+//     skin + (min(1, least singular value of F) - 1) (2 R_max + range + skin) >= 2 max |s_i| + reserve.
+// This test is exact (it never misses a pair) and is made at every step; `reserve` lets a caller ask whether the
+// list will still hold after a step that moves grains by at most reserve / 2.
+//
+// Building wraps the grains into the cell and brings a tilted cell back to its least tilt. Images of the pairs
+// that stay are rewritten accordingly, so that contact histories are carried by (i, j, image) and never lost.
+// Any cell works, also one narrower than a grain's interaction range (a grain then meets several images, its own
+// included).
+//
+// Source: Allen and Tildesley 1987, ch. 5. Cost: O(grains) to build; one pass over the grains to test.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/core/archive.hpp"
+#include "common/core/types.hpp"
+#include "common/geometry/cell.hpp"
+#include "common/geometry/plane.hpp"
+
+namespace galet {
+
+/// Listed pairs, sorted by (i, j, image); i < j, or i == j for a grain and its own image (first non-zero lattice
+/// coordinate positive). j >= grains stands for plane j - grains, with image zero.
+template <int D>
+struct PairColumns {
+  std::vector<int> i, j;
+  std::vector<Image<D>> image;
+  std::size_t size() const { return i.size(); }
+};
+
+template <int D>
+class VerletList {
+ public:
+  /// `range`: largest gap at which a pair interacts (0 for contact laws without range). `skin`: see above.
+  void configure(double range, double skin);
+
+  /// Whether a pair that is not listed may be within range (after a further displacement of `reserve` in all).
+  bool expired(std::span<const Vec<D>> position, const Cell<D>& cell, std::span<const Plane<D>> planes,
+               double reserve = 0) const;
+
+  /// Wraps positions and box, and lists all pairs anew. Throws RunError, naming the grains, when a position is not
+  /// finite, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane.
+  void build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
+             std::span<const Plane<D>> planes);
+
+  const PairColumns<D>& pairs() const { return pairs_; }
+  std::size_t size() const { return pairs_.size(); }
+
+  /// Rows of grain i as first member of its pairs: [first()[i], first()[i + 1]).
+  std::span<const int> first() const { return first_; }
+  /// Rows of grain j as second member: rows_of_second()[second()[j] .. second()[j + 1]), ascending.
+  std::span<const int> second() const { return second_; }
+  std::span<const int> rows_of_second() const { return rows_of_second_; }
+
+  /// For each listed pair, its row in the list before the last build, or -1.
+  std::span<const int> origin() const { return origin_; }
+  /// Whether i and j of a self-image pair changed places in the last build (vector histories change sign).
+  bool flipped(std::size_t row) const { return !flipped_.empty() && flipped_[row] != 0; }
+
+  double skin() const { return skin_; }
+  long builds() const { return builds_; }
+
+  void save(Archive& archive) const;
+  void restore(const Archive& archive, int grains);
+
+ private:
+  struct Neighbour {
+    int j;
+    Image<D> image;
+    bool operator<(const Neighbour& other) const { return j != other.j ? j < other.j : image < other.image; }
+  };
+
+  void wrap(std::span<Vec<D>> position, Cell<D>& cell);
+  void fill_bins(std::span<const Vec<D>> position, const Cell<D>& cell, double cutoff);
+  void search(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+              std::span<const Plane<D>> planes);
+  void search_grain(int i, std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+                    std::span<const Plane<D>> planes, std::vector<Neighbour>& found) const;
+  void search_bin(int i, int bin, const Image<D>& image, std::span<const Vec<D>> position,
+                  std::span<const double> radius, const Cell<D>& cell, std::vector<Neighbour>& found) const;
+  void carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap);
+  void index_rows(int grains);
+
+  double range_ = 0;
+  double skin_ = 0;
+  double largest_radius_ = 0;
+  long builds_ = 0;
+
+  PairColumns<D> pairs_, old_pairs_;
+  std::vector<int> first_, second_, rows_of_second_, origin_;
+  std::vector<std::uint8_t> flipped_, old_flipped_;
+  std::vector<int> old_order_;
+
+  std::vector<Vec<D>> reference_;  ///< positions at the last build
+  std::vector<Vec<D>> plane_reference_;
+  Mat<D> box_reference_ = Mat<D>::Identity();
+
+  // Bins of the cell, in fractional coordinates.
+  std::array<int, D> bins_{}, reach_{};
+  Vec<D> origin_of_bins_ = Vec<D>::Zero(), extent_of_bins_ = Vec<D>::Ones();
+  std::vector<int> bin_of_, bin_start_, bin_grains_;
+  std::vector<Image<D>> wraps_;
+  std::vector<std::vector<Neighbour>> chunk_found_;
+  std::vector<int> found_count_;
+};
+
+extern template class VerletList<2>;
+extern template class VerletList<3>;
+
+}  // namespace galet

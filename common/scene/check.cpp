@@ -1,0 +1,428 @@
+#include "common/scene/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/core/near_match.hpp"
+#include "common/core/types.hpp"
+
+namespace galet {
+
+namespace {
+
+using Paths = std::vector<std::string>;
+
+/// The scene under examination and what was found in it.
+struct Report {
+  const Scene& scene;
+  std::vector<Finding> findings = {};
+
+  void add(std::string path, std::string message, Paths reads = {}) {
+    findings.push_back({std::move(path), std::move(message), std::move(reads)});
+  }
+  /// Adds the finding when the rule is broken.
+  void rule(bool holds, std::string path, std::string message, Paths reads = {}) {
+    if (!holds) add(std::move(path), std::move(message), std::move(reads));
+  }
+  /// A vector of the scene has one component per direction, or is absent.
+  void components(const std::string& path, std::size_t size, bool may_be_absent = true) {
+    const auto wanted = static_cast<std::size_t>(scene.dimension);
+    if (size == wanted || (size == 0 && may_be_absent)) return;
+    add(path, fmt::format("{}: {}D needs {} components, got {}", path, wanted, wanted, size), {"dimension"});
+  }
+};
+
+bool drawn(InitialKind kind) { return kind != InitialKind::listed && kind != InitialKind::packing; }
+
+bool gaseous(InitialKind kind) { return kind == InitialKind::gas || kind == InitialKind::compressed_gas; }
+
+bool is_periodic(const Scene& scene, std::size_t direction) {
+  return direction >= scene.cell.periodic.size() || scene.cell.periodic[direction];
+}
+
+bool all_periodic(const Scene& scene) {
+  return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
+}
+
+char axis(std::size_t direction) { return "xyz"[direction]; }
+
+/// Mean of diameter^power over the distribution, power = 2 or 3.
+double mean_power(const SizeDistribution& sizes, int power) {
+  if (sizes.kind == SizeKind::discrete) {
+    double sum = 0;
+    for (std::size_t k = 0; k < sizes.diameters.size(); ++k)
+      sum += sizes.fractions[k] * std::pow(sizes.diameters[k], power);
+    return sum;
+  }
+  const double s2 = sizes.kind == SizeKind::uniform ? sizes.spread * sizes.spread : 0;
+  // Uniform on mean (1 - s), mean (1 + s): <d^2> = mean^2 (1 + s^2 / 3), <d^3> = mean^3 (1 + s^2).
+  return std::pow(sizes.mean, power) * (1 + (power == 2 ? s2 / 3 : s2));
+}
+
+double largest_diameter(const Scene& scene) {
+  double largest = 0;
+  if (!drawn(scene.initial.kind)) {
+    for (const ListedGrain& grain : scene.grains.listed) largest = std::max(largest, grain.diameter);
+    return largest;
+  }
+  const SizeDistribution& sizes = scene.grains.diameter;
+  for (const double diameter : sizes.diameters) largest = std::max(largest, diameter);
+  if (sizes.kind == SizeKind::discrete) return largest;
+  return sizes.mean * (sizes.kind == SizeKind::uniform ? 1 + sizes.spread : 1);
+}
+
+bool sound(const SizeDistribution& sizes) {
+  return sizes.kind != SizeKind::discrete ||
+         (!sizes.diameters.empty() && sizes.diameters.size() == sizes.fractions.size());
+}
+
+// ---- grains ------------------------------------------------------------------------------------------------
+
+void check_count(Report& report) {
+  const Scene& scene = report.scene;
+  const int count = scene.grains.count;
+  const auto listed = scene.grains.listed.size();
+  if (drawn(scene.initial.kind) && listed == 0)
+    report.rule(count > 0, "grains.count", "grains.count is needed: the number of grains", {"initial.kind", "grain"});
+  if (scene.initial.kind == InitialKind::listed && count > 0 && listed > 0)
+    report.rule(static_cast<std::size_t>(count) == listed, "grains.count",
+                fmt::format("grains.count is {}, but there are {} [[grain]] entries: leave it out", count, listed),
+                {"initial.kind", "grain"});
+}
+
+void check_diameters(Report& report) {
+  const SizeDistribution& sizes = report.scene.grains.diameter;
+  const Paths kind = {"grains.diameter.distribution", "grains.diameter"};
+  const std::string path = "grains.diameter.";
+  const bool discrete = sizes.kind == SizeKind::discrete;
+  report.rule(sizes.spread == 0 || sizes.kind == SizeKind::uniform, path + "spread",
+              "grains.diameter.spread needs distribution = \"uniform\"", kind);
+  if (!discrete) {
+    report.rule(sizes.diameters.empty(), path + "values", "grains.diameter.values needs distribution = \"discrete\"",
+                kind);
+    report.rule(sizes.fractions.empty(), path + "fractions",
+                "grains.diameter.fractions needs distribution = \"discrete\"", kind);
+    return;
+  }
+  const Paths lists = {"grains.diameter.distribution", "grains.diameter.values", "grains.diameter.fractions"};
+  report.rule(!sizes.diameters.empty(), path + "values",
+              "grains.diameter.values is needed with distribution = \"discrete\"", lists);
+  if (sizes.diameters.empty()) return;
+  if (sizes.diameters.size() != sizes.fractions.size()) {
+    report.add(path + "fractions",
+               fmt::format("grains.diameter.fractions: one per value needed: {} values, {} fractions",
+                           sizes.diameters.size(), sizes.fractions.size()),
+               lists);
+    return;
+  }
+  const double sum = std::accumulate(sizes.fractions.begin(), sizes.fractions.end(), 0.0);
+  report.rule(std::abs(sum - 1) <= 1e-9, path + "fractions",
+              fmt::format("grains.diameter.fractions: their sum must be 1, it is {:.10g}", sum), lists);
+}
+
+void check_listed(Report& report) {
+  const Scene& scene = report.scene;
+  const auto& listed = scene.grains.listed;
+  const bool wanted = scene.initial.kind == InitialKind::listed;
+  report.rule(!wanted || !listed.empty(), "initial.kind", "initial.kind = \"listed\" needs [[grain]] entries",
+              {"grain"});
+  report.rule(wanted || listed.empty(), "initial.kind",
+              "[[grain]] entries need initial.kind = \"listed\": other kinds make their own grains", {"grain"});
+  const std::size_t turns = scene.dimension == 2 ? 1 : 3;
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    const std::string path = fmt::format("grain[{}].", k);
+    const ListedGrain& grain = listed[k];
+    report.components(path + "position", grain.position.size(), false);
+    report.components(path + "velocity", grain.velocity.size());
+    if (!grain.spin.empty() && grain.spin.size() != turns)
+      report.add(path + "spin",
+                 fmt::format("{}spin: {} in {}D, got {} components", path,
+                             turns == 1 ? "a number is needed" : "3 components are needed", scene.dimension,
+                             grain.spin.size()),
+                 {"dimension"});
+    const bool turning = std::any_of(grain.spin.begin(), grain.spin.end(), [](double w) { return w != 0; });
+    report.rule(!turning || scene.material.friction > 0, path + "spin",
+                path + "spin needs material.friction > 0: rotations of frictionless grains are not computed",
+                {"material.friction"});
+  }
+}
+
+void check_grains(Report& report) {
+  const GrainSpec& grains = report.scene.grains;
+  check_count(report);
+  check_diameters(report);
+  check_listed(report);
+  report.rule(!grains.density || !grains.mass, "grains.mass", "grains.density and grains.mass exclude each other",
+              {"grains.density"});
+  report.rule(report.scene.reduced_units || grains.density || grains.mass, "grains",
+              "grains.density or grains.mass is needed with units = \"SI\"",
+              {"units", "grains.density", "grains.mass"});
+}
+
+// ---- material ----------------------------------------------------------------------------------------------
+
+void check_material(Report& report) {
+  const Scene& scene = report.scene;
+  const MaterialSpec& material = scene.material;
+  const bool md = scene.engine == EngineKind::md;
+  report.rule(!material.restitution || !material.damping_ratio, "material.damping_ratio",
+              "material.restitution and material.damping_ratio exclude each other", {"material.restitution"});
+  report.rule(material.restitution || material.damping_ratio, "material",
+              "material.restitution or material.damping_ratio is needed",
+              {"material.restitution", "material.damping_ratio"});
+  report.rule(!md || material.restitution != 0.0, "material.restitution",
+              "material.restitution: md needs a restitution > 0 (give a damping_ratio for stronger damping)",
+              {"engine"});
+  report.rule(!material.stiffness_level || !material.normal_stiffness, "material.normal_stiffness",
+              "material.stiffness_level and material.normal_stiffness exclude each other",
+              {"material.stiffness_level"});
+  report.rule(!md || material.stiffness_level || material.normal_stiffness, "material",
+              "material.stiffness_level or material.normal_stiffness is needed by engine md",
+              {"engine", "material.stiffness_level", "material.normal_stiffness"});
+  report.rule(!material.stiffness_level || scene.loading.pressure, "material.stiffness_level",
+              "material.stiffness_level needs loading.pressure: it is K_N / (P d^(D-2))", {"loading.pressure"});
+}
+
+// ---- initial state and cell --------------------------------------------------------------------------------
+
+/// The largest solid fraction at which the grains can first be placed. Random sequential insertion saturates at
+/// 0.547 (disks) and 0.384 (spheres); well below that it is fast. The sites of a square or cubic lattice are at
+/// least a largest diameter apart.
+double placeable_fraction(const Scene& scene) {
+  const int dim = scene.dimension;
+  if (gaseous(scene.initial.kind)) return dim == 2 ? 0.5 : 0.33;
+  const double equal_grains = dim == 2 ? 0.78 : 0.52;
+  return equal_grains * mean_power(scene.grains.diameter, dim) / std::pow(largest_diameter(scene), dim);
+}
+
+void check_solid_fraction(Report& report) {
+  const Scene& scene = report.scene;
+  if (!drawn(scene.initial.kind) || !sound(scene.grains.diameter)) return;
+  const double most = placeable_fraction(scene);
+  const std::string_view how = gaseous(scene.initial.kind) ? "random insertion of grains" : "a lattice of these grains";
+  const Paths reads = {"dimension", "initial.kind", "grains.diameter", "grains.count"};
+  const auto& size = scene.cell.size;
+  if (size.empty()) {
+    report.rule(scene.initial.solid_fraction <= most, "initial.solid_fraction",
+                fmt::format("initial.solid_fraction is {:.4g}: {} in {}D reaches {:.4g}", scene.initial.solid_fraction,
+                            how, scene.dimension, most),
+                reads);
+  } else if (size.size() == static_cast<std::size_t>(scene.dimension)) {
+    const double one = scene.dimension == 2 ? grain_volume<2>(1) : grain_volume<3>(1);
+    const double volume = std::accumulate(size.begin(), size.end(), 1.0, std::multiplies<>());
+    const double fraction = scene.grains.count * one * mean_power(scene.grains.diameter, scene.dimension) / volume;
+    report.rule(fraction <= most, "cell.size",
+                fmt::format("cell.size: {} grains make a solid fraction of {:.4g}; {} in {}D reaches {:.4g}",
+                            scene.grains.count, fraction, how, scene.dimension, most),
+                reads);
+  }
+}
+
+void check_initial(Report& report) {
+  const Scene& scene = report.scene;
+  const InitialSpec& initial = scene.initial;
+  const bool packing = initial.kind == InitialKind::packing;
+  const bool compressed = initial.kind == InitialKind::compressed_gas;
+  report.rule(!packing || !initial.file.empty(), "initial", "initial.file is needed with kind = \"packing\"",
+              {"initial.kind", "initial.file"});
+  report.rule(packing || initial.file.empty(), "initial.file", "initial.file needs initial.kind = \"packing\"",
+              {"initial.kind"});
+  report.rule(compressed || !initial.friction, "initial.friction",
+              "initial.friction needs initial.kind = \"compressed_gas\"", {"initial.kind"});
+  report.rule(!compressed || scene.loading.pressure, "initial.kind",
+              "initial.kind = \"compressed_gas\" needs loading.pressure", {"loading.pressure"});
+  report.rule(!compressed || all_periodic(scene), "initial.kind",
+              "initial.kind = \"compressed_gas\" needs a cell periodic in each direction", {"cell.periodic"});
+  check_solid_fraction(report);
+}
+
+void check_cell(Report& report) {
+  const Scene& scene = report.scene;
+  const CellSpec& cell = scene.cell;
+  report.components("cell.periodic", cell.periodic.size());
+  report.components("cell.size", cell.size.size());
+  report.components("cell.aspect", cell.aspect.size());
+  report.rule(cell.size.empty() || cell.aspect.empty(), "cell.aspect", "cell.size and cell.aspect exclude each other",
+              {"cell.size"});
+  report.rule(scene.initial.kind != InitialKind::listed || scene.grains.listed.empty() || !cell.size.empty(), "cell",
+              "cell.size is needed with [[grain]] entries", {"initial.kind", "grain", "cell.size"});
+  if (!sound(scene.grains.diameter)) return;
+  const double largest = largest_diameter(scene);
+  for (std::size_t a = 0; a < std::min<std::size_t>(cell.size.size(), 3); ++a)
+    report.rule(!is_periodic(scene, a) || cell.size[a] >= largest, "cell.size",
+                fmt::format("cell.size: {:.6g} in the periodic direction {} is less than the largest diameter, {:.6g}",
+                            cell.size[a], axis(a), largest),
+                {"cell.periodic", "grains.diameter", "grain", "initial.kind"});
+}
+
+void check_planes(Report& report) {
+  const Scene& scene = report.scene;
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const PlaneSpec& plane = scene.planes[k];
+    const std::string path = fmt::format("plane[{}].", k);
+    report.components(path + "point", plane.point.size(), false);
+    report.components(path + "normal", plane.normal.size(), false);
+    report.components(path + "velocity", plane.velocity.size());
+    if (plane.normal.size() != static_cast<std::size_t>(scene.dimension)) continue;
+    const bool zero = std::all_of(plane.normal.begin(), plane.normal.end(), [](double n) { return n == 0; });
+    report.rule(!zero, path + "normal", path + "normal is zero: it must point to the grains' side");
+    for (std::size_t a = 0; a < plane.normal.size(); ++a)
+      report.rule(plane.normal[a] == 0 || !is_periodic(scene, a), path + "normal",
+                  fmt::format("{}normal: the plane crosses the periodic direction {}; set cell.periodic to false there",
+                              path, axis(a)),
+                  {"cell.periodic", "dimension"});
+  }
+}
+
+// ---- loading -----------------------------------------------------------------------------------------------
+
+void check_plane_shear(Report& report) {
+  const LoadingSpec& loading = report.scene.loading;
+  const bool shear = loading.kind == LoadingKind::plane_shear;
+  report.rule(!loading.shear_rate || !loading.inertial_number, "loading.inertial_number",
+              "loading.shear_rate and loading.inertial_number exclude each other", {"loading.shear_rate"});
+  report.rule(!shear || loading.shear_rate || loading.inertial_number, "loading",
+              "loading.shear_rate or loading.inertial_number is needed with kind = \"plane_shear\"",
+              {"loading.kind", "loading.shear_rate", "loading.inertial_number"});
+  report.rule(shear || !loading.shear_rate, "loading.shear_rate",
+              "loading.shear_rate needs loading.kind = \"plane_shear\"", {"loading.kind"});
+  report.rule(shear || !loading.inertial_number, "loading.inertial_number",
+              "loading.inertial_number needs loading.kind = \"plane_shear\"", {"loading.kind"});
+  report.rule(!shear || !loading.inertial_number || loading.pressure, "loading.inertial_number",
+              "loading.inertial_number needs loading.pressure: it is the shear rate times sqrt(m / (P d^(D-2)))",
+              {"loading.kind", "loading.pressure"});
+}
+
+void check_gravity(Report& report) {
+  const Scene& scene = report.scene;
+  const auto& gravity = scene.loading.gravity;
+  report.components("loading.gravity", gravity.size());
+  if (gravity.size() != static_cast<std::size_t>(scene.dimension)) return;
+  for (std::size_t a = 0; a < gravity.size(); ++a)
+    report.rule(gravity[a] == 0 || !is_periodic(scene, a), "loading.gravity",
+                fmt::format("loading.gravity: {} is a periodic direction, in which grains would fall forever; set "
+                            "cell.periodic to false there",
+                            axis(a)),
+                {"cell.periodic", "dimension"});
+}
+
+Paths component_names(int dimension) {
+  Paths names;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) names.push_back({axis(a), axis(b)});
+  names.emplace_back("isotropic");
+  return names;
+}
+
+void check_drives(Report& report) {
+  const Scene& scene = report.scene;
+  const auto& drives = scene.loading.drives;
+  const bool wanted = scene.loading.kind == LoadingKind::drives;
+  report.rule(!wanted || !drives.empty(), "loading.kind", "loading.kind = \"drives\" needs [[drive]] entries",
+              {"drive"});
+  report.rule(wanted || drives.empty(), "loading.kind", "[[drive]] entries need loading.kind = \"drives\"", {"drive"});
+  const Paths names = component_names(scene.dimension);
+  std::set<std::string> seen;
+  bool isotropic = false;
+  for (const CellDrive& drive : drives) isotropic = isotropic || drive.component == "isotropic";
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const CellDrive& drive = drives[k];
+    const std::string path = fmt::format("drive[{}].", k);
+    const std::string component = path + "component";
+    const bool known = std::find(names.begin(), names.end(), drive.component) != names.end();
+    report.rule(known, component,
+                fmt::format("{}: expected {}, got {}{}", component, alternatives(quoted(names)),
+                            quoted(drive.component), suggestion(drive.component, names)),
+                {"dimension"});
+    report.rule(!known || seen.insert(drive.component).second, component,
+                fmt::format("{}: {} is driven twice", component, quoted(drive.component)));
+    const bool diagonal = drive.component.size() == 2 && drive.component[0] == drive.component[1];
+    report.rule(!known || !isotropic || !diagonal, component,
+                fmt::format("{}: {} and \"isotropic\" drive the same rate", component, quoted(drive.component)));
+    report.rule(!drive.rate || !drive.stress, path + "stress", path + "rate and " + path + "stress exclude each other",
+                {path + "rate"});
+    report.rule(drive.rate || drive.stress, fmt::format("drive[{}]", k),
+                fmt::format("drive[{}]: rate or stress is needed", k), {path + "rate", path + "stress"});
+  }
+}
+
+void check_loading(Report& report) {
+  const Scene& scene = report.scene;
+  const LoadingSpec& loading = scene.loading;
+  check_plane_shear(report);
+  check_gravity(report);
+  check_drives(report);
+  report.rule(loading.kind != LoadingKind::isotropic || loading.pressure, "loading",
+              "loading.pressure is needed with kind = \"isotropic\"", {"loading.kind", "loading.pressure"});
+  report.rule(loading.kind == LoadingKind::none || all_periodic(scene), "cell.periodic",
+              "cell.periodic: this loading.kind moves the cell, which must be periodic in each direction",
+              {"loading.kind"});
+}
+
+// ---- run and compare ---------------------------------------------------------------------------------------
+
+bool sheared(const LoadingSpec& loading) {
+  if (loading.kind == LoadingKind::plane_shear) return true;
+  return loading.kind == LoadingKind::drives &&
+         std::any_of(loading.drives.begin(), loading.drives.end(),
+                     [](const CellDrive& drive) { return drive.component == "xy" && drive.rate.value_or(0) != 0; });
+}
+
+void check_run(Report& report) {
+  const Scene& scene = report.scene;
+  const RunSpec& run = scene.run;
+  report.rule(!run.duration || !run.strain, "run.strain", "run.duration and run.strain exclude each other",
+              {"run.duration"});
+  report.rule(run.duration || run.strain, "run", "run.duration or run.strain is needed",
+              {"run.duration", "run.strain"});
+  report.rule(!run.strain || sheared(scene.loading), "run.strain",
+              "run.strain needs loading.kind = \"plane_shear\" or a [[drive]] that gives the rate of \"xy\"",
+              {"loading.kind", "drive"});
+  report.rule(!run.equilibrium || scene.loading.kind == LoadingKind::isotropic, "run.equilibrium",
+              "run.equilibrium needs loading.kind = \"isotropic\"", {"loading.kind"});
+}
+
+void check_repeated(Report& report, const std::string& path, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto twice = std::adjacent_find(values.begin(), values.end());
+  if (twice != values.end()) report.add(path, fmt::format("{}: {} is there twice", path, *twice));
+}
+
+void check_compare(Report& report) {
+  const Scene& scene = report.scene;
+  const CompareSpec& compare = scene.compare;
+  report.rule(compare.inertial_numbers.empty() || scene.loading.inertial_number, "compare.inertial_numbers",
+              "compare.inertial_numbers needs loading.inertial_number", {"loading.inertial_number"});
+  report.rule(compare.stiffness_levels.empty() || scene.loading.pressure, "compare.stiffness_levels",
+              "compare.stiffness_levels needs loading.pressure", {"loading.pressure"});
+  report.rule(compare.cd_dt_factors.empty() || !scene.cd.dt, "compare.cd_dt_factors",
+              "compare.cd_dt_factors and cd.dt exclude each other", {"cd.dt"});
+  check_repeated(report, "compare.inertial_numbers", compare.inertial_numbers);
+  check_repeated(report, "compare.stiffness_levels", compare.stiffness_levels);
+  check_repeated(report, "compare.cd_dt_factors", compare.cd_dt_factors);
+  check_repeated(report, "compare.cd_tolerances", compare.cd_tolerances);
+}
+
+}  // namespace
+
+std::vector<Finding> check(const Scene& scene) {
+  Report report{scene};
+  // The other rules count components: in another dimension their findings would be noise.
+  if (scene.dimension != 2 && scene.dimension != 3)
+    return {{"dimension", fmt::format("dimension: expected 2 or 3, got {}", scene.dimension), {}}};
+  check_grains(report);
+  check_material(report);
+  check_initial(report);
+  check_cell(report);
+  check_planes(report);
+  check_loading(report);
+  check_run(report);
+  check_compare(report);
+  return report.findings;
+}
+
+}  // namespace galet

@@ -1,0 +1,103 @@
+// Grain pass and drift of the md step: everything that is done per grain.
+//
+// Time scheme (velocity Verlet with predicted velocities, second order for smooth forces). Between steps the state is
+// (x, v, a) at one time, a = F/m + gravity - L v. One step:
+//   drift   v_half = v + dt/2 a;  x' = F x + dt A v_half;  contacts see v_half + dt/2 a
+//           with A = (1 - dt/2 L)^-1 and F = A (1 + dt/2 L): the same map moves grains and box, so that images stay
+//           images to rounding
+//   gather  a' from the contact rows, in a fixed order (rows as second member, then as first); v' = v_half + dt/2 a'
+// Rotations likewise, without the cell.
+#pragma once
+
+#include "common/core/parallel.hpp"
+#include "common/engine/bodies.hpp"
+#include "common/neighbour/verlet_list.hpp"
+#include "md/contact_pass.hpp"
+#include "md/contacts.hpp"
+
+namespace galet::md {
+
+/// Accelerations at the time of the state: the part of the state that the bodies do not hold.
+template <Layout Y>
+struct Accelerations {
+  Column<Vec<Y.dim>> linear;
+  Column<Spin<Y.dim>, Y.friction> angular;
+  std::vector<double> modes;  ///< of the cell's rates; zero for rate-driven modes
+};
+
+/// First half of the step. On return the bodies hold v_half and the new positions, `seen` the predicted velocities.
+template <Layout Y>
+void drift(Bodies<Y>& bodies, const Accelerations<Y>& acceleration, Seen<Y>& seen, double dt) {
+  constexpr int D = Y.dim;
+  const Mat<D> identity = Mat<D>::Identity();
+  const Mat<D> gradient = bodies.cell.rate;  // L at the half step
+  const Mat<D> advance = (identity - 0.5 * dt * gradient).inverse();
+  const Mat<D> deform = advance * (identity + 0.5 * dt * gradient);
+  const Mat<D> step = dt * advance;
+  const bool still = gradient.isZero(0);
+  parallel_ranges(bodies.position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec<D> kick = 0.5 * dt * acceleration.linear[i];
+      const Vec<D> half = bodies.velocity[i] + kick;
+      if (still)
+        bodies.position[i] += dt * half;
+      else
+        bodies.position[i] = deform * bodies.position[i] + step * half;
+      bodies.velocity[i] = half;
+      seen.velocity[i] = half + kick;
+      if constexpr (Y.friction) {
+        const Spin<D> turn = 0.5 * dt * acceleration.angular[i];
+        bodies.spin[i] += turn;
+        seen.spin[i] = bodies.spin[i] + turn;
+      }
+    }
+  });
+  if (!still) bodies.cell.box = deform * bodies.cell.box;
+  for (Plane<D>& plane : bodies.planes) plane.point += dt * plane.velocity;
+}
+
+/// Accelerations from the contact rows, and the second half of the kick (`kick_dt` = dt/2; 0 at the very start).
+template <Layout Y>
+void gather(Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<Y.dim>& list, const Contacts<Y>& contacts,
+            Accelerations<Y>& acceleration, double kick_dt) {
+  constexpr int D = Y.dim;
+  const auto first = list.first(), second = list.second(), rows_of_second = list.rows_of_second();
+  parallel_ranges(bodies.position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Vec<D> force = Vec<D>::Zero();
+      Spin<D> twist = zero_spin<D>();
+      for (int k = second[i]; k < second[i + 1]; ++k) {
+        force += contacts.force[rows_of_second[k]];
+        if constexpr (Y.friction) twist += contacts.twist[rows_of_second[k]];
+      }
+      for (int row = first[i]; row < first[i + 1]; ++row) {
+        force -= contacts.force[row];
+        if constexpr (Y.friction) twist += contacts.twist[row];
+      }
+      acceleration.linear[i] = force / bodies.mass[i] + bodies.gravity - seen.gradient * seen.velocity[i];
+      bodies.velocity[i] += kick_dt * acceleration.linear[i];
+      if constexpr (Y.friction) {
+        acceleration.angular[i] = -bodies.radius[i] / bodies.inertia[i] * twist;
+        bodies.spin[i] += kick_dt * acceleration.angular[i];
+      }
+    }
+  });
+}
+
+/// Sum over the grains of m v (x) v, by chunks (the same bits for any number of threads).
+template <Layout Y>
+Mat<Y.dim> kinetic_virial(const Bodies<Y>& bodies, std::vector<Mat<Y.dim>>& partial) {
+  constexpr int D = Y.dim;
+  partial.assign(chunk_count(bodies.position.size()), Mat<D>::Zero());
+  parallel_chunks(bodies.position.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    Mat<D> sum = Mat<D>::Zero();
+    for (std::size_t i = begin; i < end; ++i)
+      sum += bodies.mass[i] * bodies.velocity[i] * bodies.velocity[i].transpose();
+    partial[chunk] = sum;
+  });
+  Mat<D> total = Mat<D>::Zero();
+  for (const Mat<D>& part : partial) total += part;
+  return total;
+}
+
+}  // namespace galet::md

@@ -1,0 +1,97 @@
+#include "src/measure.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "common/measure/coordination.hpp"
+#include "common/measure/numbers.hpp"
+#include "common/measure/stress.hpp"
+
+namespace galet {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+template <int D>
+void put_stress(Measurement& row, const Mat<D>& sigma) {
+  row[Observable::sigma_xx] = sigma(0, 0);
+  row[Observable::sigma_yy] = sigma(1, 1);
+  row[Observable::sigma_xy] = sigma(0, 1);
+  if constexpr (D == 3) {
+    row[Observable::sigma_zz] = sigma(2, 2);
+    row[Observable::sigma_xz] = sigma(0, 2);
+    row[Observable::sigma_yz] = sigma(1, 2);
+  }
+}
+
+void put_energy(Measurement& row, const EnergyParts& energy, int grains) {
+  row[Observable::kinetic] = energy.kinetic;
+  row[Observable::rotational] = energy.rotational;
+  row[Observable::cell] = energy.cell;
+  row[Observable::elastic_normal] = energy.elastic_normal;
+  row[Observable::elastic_tangential] = energy.elastic_tangential;
+  row[Observable::gravity] = energy.gravity;
+  row[Observable::kinetic_per_grain] = (energy.kinetic + energy.rotational) / grains;
+}
+
+}  // namespace
+
+MeasureScale measure_scale(const Derived& derived, bool rigid) {
+  MeasureScale scale;
+  scale.dimension = derived.layout.dim;
+  scale.friction = derived.layout.friction;
+  scale.diameter = derived.grains.mean_diameter;
+  scale.mass = derived.grains.mean_mass;
+  scale.shear_rate = derived.shear_rate.value_or(0);
+  scale.normal_stiffness = !rigid && derived.soft ? derived.soft->normal_stiffness : 0;
+  return scale;
+}
+
+void complete(Measurement& row, const MeasureScale& scale) {
+  const double sigma_yy = row[Observable::sigma_yy];
+  const double trace = row[Observable::sigma_xx] + sigma_yy + row[Observable::sigma_zz];
+  const double pressure = trace / scale.dimension;
+  const bool sheared = scale.shear_rate != 0;
+  // Shear numbers refer to sigma_yy, the others to the mean normal stress (common/measure/numbers.hpp).
+  const double reference = sheared ? sigma_yy : pressure;
+  row[Observable::pressure] = pressure;
+  row[Observable::mu_star] = sigma_yy > 0 ? std::abs(row[Observable::sigma_xy]) / sigma_yy : nothing;
+  row[Observable::inertial_number] =
+      sheared && reference > 0
+          ? inertial_number(scale.dimension, std::abs(scale.shear_rate), reference, scale.mass, scale.diameter)
+          : nothing;
+  row[Observable::stiffness_level] =
+      scale.normal_stiffness > 0 && reference > 0
+          ? stiffness_level(scale.dimension, scale.normal_stiffness, reference, scale.diameter)
+          : nothing;
+}
+
+template <int D>
+Measurement measure(Engine<D>& engine, const MeasureScale& scale) {
+  const Snapshot<D> snapshot = engine.snapshot();
+  Measurement row;
+  row[Observable::time] = engine.time();
+  row[Observable::strain] = scale.shear_rate * engine.time();
+  put_stress<D>(row, stress(snapshot).total());
+  row[Observable::solid_fraction] = solid_fraction(snapshot);
+
+  const Coordination contacts = coordination(snapshot, scale.friction);
+  row[Observable::z] = contacts.z;
+  row[Observable::z_star] = contacts.z_star;
+  row[Observable::rattler_fraction] = contacts.rattler_fraction;
+
+  const Overlap depth = overlap(snapshot);
+  row[Observable::mean_overlap] = depth.mean / scale.diameter;
+  row[Observable::largest_overlap] = depth.largest / scale.diameter;
+  row[Observable::peak_overlap] = depth.largest / scale.diameter;
+
+  put_energy(row, engine.energy(), snapshot.grains());
+  complete(row, scale);
+  return row;
+}
+
+template Measurement measure<2>(Engine<2>&, const MeasureScale&);
+template Measurement measure<3>(Engine<3>&, const MeasureScale&);
+
+}  // namespace galet

@@ -1,0 +1,31 @@
+// One sample of a running engine: every column of observable.hpp at the end of the last step.
+#pragma once
+
+#include "common/engine/engine.hpp"
+#include "common/scene/derive.hpp"
+#include "src/observable.hpp"
+
+namespace galet {
+
+/// What the dimensionless numbers are referred to, for one scene and engine.
+struct MeasureScale {
+  int dimension = 2;
+  bool friction = false;
+  double diameter = 1;          ///< d, mean
+  double mass = 1;              ///< m, of a grain of mean diameter
+  double shear_rate = 0;        ///< L_xy imposed; 0 without shear
+  double normal_stiffness = 0;  ///< K_N; 0 for rigid grains
+};
+
+MeasureScale measure_scale(const Derived& derived, bool rigid);
+
+template <int D>
+Measurement measure(Engine<D>& engine, const MeasureScale& scale);
+
+/// Fills the columns that follow from the stress of `row`: mu*, pressure, I and kappa.
+void complete(Measurement& row, const MeasureScale& scale);
+
+extern template Measurement measure<2>(Engine<2>&, const MeasureScale&);
+extern template Measurement measure<3>(Engine<3>&, const MeasureScale&);
+
+}  // namespace galet

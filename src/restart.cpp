@@ -1,0 +1,117 @@
+#include "src/restart.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "common/core/archive_columns.hpp"
+#include "common/core/error.hpp"
+#include "src/engines.hpp"
+
+namespace galet {
+
+namespace {
+
+const std::string& text(const Archive& archive, const std::string& name) {
+  const auto found = archive.texts.find(name);
+  if (found == archive.texts.end()) throw InputError("the checkpoint has no text '" + name + "'");
+  return found->second;
+}
+
+template <int D>
+void put_matrix(Archive& archive, const std::string& name, const Mat<D>& matrix) {
+  archive.reals[name].assign(matrix.data(), matrix.data() + D * D);
+}
+
+template <int D>
+void take_matrix(const Archive& archive, const std::string& name, Mat<D>& matrix) {
+  const std::vector<double>& stored = real_column(archive, name);
+  if (stored.size() != D * D) throw InputError("the checkpoint is of another dimension than its scene");
+  matrix = Eigen::Map<const Mat<D>>(stored.data());
+}
+
+}  // namespace
+
+void save_scene(Archive& archive, const Scene& scene, EngineKind kind, const std::vector<Override>& overrides) {
+  archive.texts["engine"] = engine_name(kind);
+  archive.texts["scene"] = scene.source;
+  archive.texts["scene.title"] = scene.title;
+  archive.texts["scene.directory"] = scene.directory;
+  std::string lines;
+  for (const Override& change : overrides) lines += change.path + "=" + change.value + "\n";
+  archive.texts["scene.overrides"] = lines;
+}
+
+std::vector<Override> stored_overrides(const Archive& archive) {
+  const std::string& lines = text(archive, "scene.overrides");
+  std::vector<Override> overrides;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    const std::size_t equals = lines.find('=', begin);
+    if (equals >= end) throw InputError("the checkpoint's scene changes are damaged");
+    overrides.push_back({lines.substr(begin, equals - begin), lines.substr(equals + 1, end - equals - 1)});
+    begin = end + 1;
+  }
+  return overrides;
+}
+
+EngineKind stored_engine(const Archive& archive) { return engine_kind(text(archive, "engine")); }
+
+Scene stored_scene(const Archive& archive, const std::vector<Override>& more) {
+  if (text(archive, "scene").empty())
+    throw InputError("the checkpoint holds no scene text: it was written by a program, which alone can resume it");
+  std::vector<Mistake> mistakes;
+  for (const Override& change : more)
+    if (change.path.rfind("run.", 0) != 0)
+      mistakes.push_back({"", 0, 0, "--set " + change.path + ": a resumed run keeps its scene; only run.* may change"});
+  if (!mistakes.empty()) throw InputError(mistakes);
+
+  std::vector<Override> overrides = stored_overrides(archive);
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  Scene scene = parse_scene(text(archive, "scene"), "scene in the checkpoint", overrides);
+  scene.directory = text(archive, "scene.directory");
+  return scene;
+}
+
+template <int D>
+void save_sample(Archive& archive, const Sample<D>& sample) {
+  put_matrix<D>(archive, "sample.box", sample.cell.box);
+  put_matrix<D>(archive, "sample.rate", sample.cell.rate);
+  archive.integers["sample.periodic"].assign(sample.cell.periodic.begin(), sample.cell.periodic.end());
+  std::vector<Vec<D>> planes;
+  for (const Plane<D>& plane : sample.planes) planes.insert(planes.end(), {plane.point, plane.normal, plane.velocity});
+  put_column(archive, "sample.planes", planes);
+  put_column(archive, "sample.position", sample.position);
+  put_column(archive, "sample.velocity", sample.velocity);
+  put_column(archive, "sample.spin", sample.spin);
+  put_column(archive, "sample.radius", sample.radius);
+  put_column(archive, "sample.mass", sample.mass);
+}
+
+template <int D>
+Sample<D> stored_sample(const Archive& archive) {
+  Sample<D> sample;
+  sample.resize(static_cast<int>(real_column(archive, "sample.radius").size()));
+  take_matrix<D>(archive, "sample.box", sample.cell.box);
+  take_matrix<D>(archive, "sample.rate", sample.cell.rate);
+  const auto& periodic = integer_column(archive, "sample.periodic");
+  if (periodic.size() != D) throw InputError("the checkpoint is of another dimension than its scene");
+  for (int a = 0; a < D; ++a) sample.cell.periodic[a] = periodic[a] != 0;
+
+  std::vector<Vec<D>> planes(real_column(archive, "sample.planes").size() / D);
+  take_column(archive, "sample.planes", planes);
+  for (std::size_t k = 0; k + 2 < planes.size(); k += 3)
+    sample.planes.push_back({planes[k], planes[k + 1], planes[k + 2]});
+  take_column(archive, "sample.position", sample.position);
+  take_column(archive, "sample.velocity", sample.velocity);
+  take_column(archive, "sample.spin", sample.spin);
+  take_column(archive, "sample.radius", sample.radius);
+  take_column(archive, "sample.mass", sample.mass);
+  return sample;
+}
+
+template void save_sample<2>(Archive&, const Sample<2>&);
+template void save_sample<3>(Archive&, const Sample<3>&);
+template Sample<2> stored_sample<2>(const Archive&);
+template Sample<3> stored_sample<3>(const Archive&);
+
+}  // namespace galet

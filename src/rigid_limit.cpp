@@ -1,0 +1,153 @@
+#include "src/rigid_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/core/error.hpp"
+
+namespace galet {
+
+namespace {
+
+struct WeightedMoments {
+  double weight = 0, x = 0, y = 0, xx = 0, xy = 0;  ///< sums of w, w x, ..., with x and y about their means
+  double mean_x = 0, mean_y = 0;
+};
+
+/// Moments about the means: differences of large sums would lose digits when x is tiny, as 1/kappa is.
+WeightedMoments moments(std::span<const LinePoint> points, std::span<const double> weights) {
+  WeightedMoments sums;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    sums.weight += weights[k];
+    sums.mean_x += weights[k] * points[k].x;
+    sums.mean_y += weights[k] * points[k].y.value;
+  }
+  sums.mean_x /= sums.weight;
+  sums.mean_y /= sums.weight;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double x = points[k].x - sums.mean_x;
+    sums.xx += weights[k] * x * x;
+    sums.xy += weights[k] * x * (points[k].y.value - sums.mean_y);
+  }
+  return sums;
+}
+
+bool same_x(std::span<const LinePoint> points) {
+  return std::all_of(points.begin(), points.end(), [&](const LinePoint& point) { return point.x == points[0].x; });
+}
+
+double squared_residuals(std::span<const LinePoint> points, std::span<const double> weights, const LineFit& fit) {
+  double sum = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double residual = points[k].y.value - fit.intercept.value - fit.slope.value * points[k].x;
+    sum += weights[k] * residual * residual;
+  }
+  return sum;
+}
+
+std::vector<LinePoint> points_at(std::span<const CdRun> runs, double tolerance) {
+  std::vector<LinePoint> points;
+  for (const CdRun& run : runs)
+    if (run.tolerance == tolerance) points.push_back({run.dt, run.value});
+  return points;
+}
+
+/// The tightest tolerance, and the one after it.
+struct TightestTwo {
+  double tightest;
+  std::optional<double> second;
+};
+
+TightestTwo tightest_two(std::span<const CdRun> runs) {
+  std::vector<double> tolerances;
+  for (const CdRun& run : runs) tolerances.push_back(run.tolerance);
+  std::sort(tolerances.begin(), tolerances.end());
+  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
+  return {tolerances[0], tolerances.size() > 1 ? std::optional(tolerances[1]) : std::nullopt};
+}
+
+template <class Run>
+std::vector<Run> finite_runs(std::span<const Run> runs) {
+  std::vector<Run> finite;
+  for (const Run& run : runs)
+    if (std::isfinite(run.value.value) && std::isfinite(run.value.error)) finite.push_back(run);
+  return finite;
+}
+
+/// Mean with weights 1/error^2; when an error is unknown, the plain mean with half the difference as its error.
+Estimate combine(const Estimate& a, const Estimate& b) {
+  if (a.error <= 0 || b.error <= 0) return {0.5 * (a.value + b.value), 0.5 * std::abs(a.value - b.value)};
+  const double weight_a = 1 / (a.error * a.error), weight_b = 1 / (b.error * b.error);
+  return {(weight_a * a.value + weight_b * b.value) / (weight_a + weight_b), 1 / std::sqrt(weight_a + weight_b)};
+}
+
+}  // namespace
+
+LineFit fit_line(std::span<const LinePoint> points) {
+  require(!points.empty(), "a line needs at least one point");
+  const bool known = std::all_of(points.begin(), points.end(), [](const LinePoint& p) { return p.y.error > 0; });
+  std::vector<double> weights;
+  for (const LinePoint& point : points) weights.push_back(known ? 1 / (point.y.error * point.y.error) : 1);
+
+  const WeightedMoments sums = moments(points, weights);
+  const bool flat = same_x(points);
+  LineFit fit;
+  fit.slope.value = flat ? 0 : sums.xy / sums.xx;
+  fit.intercept.value = sums.mean_y - fit.slope.value * sums.mean_x;
+
+  // Variances for weights 1/error^2; with unit weights they are in units of the scatter's variance.
+  const double slope_variance = flat ? 0 : 1 / sums.xx;
+  const double intercept_variance = 1 / sums.weight + sums.mean_x * sums.mean_x * slope_variance;
+  const double squares = squared_residuals(points, weights, fit);
+  const int left_over = static_cast<int>(points.size()) - (flat ? 1 : 2);
+  const double scatter = known ? 1 : (left_over > 0 ? squares / left_over : 0);
+  fit.slope.error = std::sqrt(scatter * slope_variance);
+  fit.intercept.error = std::sqrt(scatter * intercept_variance);
+  fit.chi_square = known ? squares : 0;
+  return fit;
+}
+
+std::optional<EngineLimit> md_limit(std::span<const MdRun> runs) {
+  std::vector<LinePoint> points;
+  for (const MdRun& run : finite_runs(runs)) points.push_back({1 / run.stiffness_level, run.value});
+  if (points.empty()) return std::nullopt;
+  const LineFit fit = fit_line(points);
+  return EngineLimit{fit.intercept, fit.slope, 0, static_cast<int>(points.size())};
+}
+
+std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs) {
+  const std::vector<CdRun> usable = finite_runs(runs);
+  if (usable.empty()) return std::nullopt;
+  const TightestTwo tolerance = tightest_two(usable);
+  const std::vector<LinePoint> points = points_at(usable, tolerance.tightest);
+  const LineFit fit = fit_line(points);
+  EngineLimit limit{fit.intercept, fit.slope, 0, static_cast<int>(points.size())};
+  if (tolerance.second) {
+    const LineFit looser = fit_line(points_at(usable, *tolerance.second));
+    const double difference = fit.intercept.value - looser.intercept.value;
+    const double noise = std::hypot(fit.intercept.error, looser.intercept.error);
+    limit.systematic = std::sqrt(std::max(0.0, difference * difference - noise * noise));
+    limit.value.error = std::hypot(limit.value.error, limit.systematic);
+  }
+  return limit;
+}
+
+RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd) {
+  RigidLimit limit{md_limit(md), cd_limit(cd), {}, {}, {}};
+  require(limit.md || limit.cd, "a rigid limit needs at least one run with a finite value");
+  if (limit.md && limit.cd) {
+    limit.combined = combine(limit.md->value, limit.cd->value);
+    limit.difference = deviation(limit.md->value, limit.cd->value);
+    limit.agree = std::abs(limit.difference->value) <= 2 * limit.difference->error;
+  } else {
+    limit.combined = limit.md ? limit.md->value : limit.cd->value;
+  }
+  return limit;
+}
+
+Estimate deviation(const Estimate& value, const Estimate& limit) {
+  return {value.value - limit.value, std::hypot(value.error, limit.error)};
+}
+
+}  // namespace galet

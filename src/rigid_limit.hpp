@@ -1,0 +1,73 @@
+// The rigid limit of a quantity q (mu*, Phi, z), from runs of both engines at finite numerical parameters.
+//   md   q = q_md + slope / kappa, least squares with weights 1/error^2; the limit is kappa -> infinity. The mean
+//        deflection is h/d ~ 1/kappa (chapter, sec. anadim): the line is the leading order of what is smooth in h.
+//        Limit: z grows faster than h near jamming, so that few, soft levels overestimate its limit.
+//   cd   q = q_cd + slope * dt, from the rows with the tightest tolerance; the limit is dt -> 0 (the time stepping is
+//        of first order). The tolerance has no known law: a second tolerance gives its own limit q', and
+//        systematic^2 = max(0, (q_cd - q')^2 - (error^2 + error'^2)): what noise doesn't explain of the difference.
+//   agreement   |q_md - q_cd| <= 2 sqrt(error_md^2 + error_cd^2)
+//   combined    mean of the two limits with weights 1/error^2
+// A single run is not extrapolated: its value stands for the limit, and `runs` says so. Errors are standard errors;
+// an error of 0 means "unknown". Pure functions.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "common/measure/block_average.hpp"
+
+namespace galet {
+
+struct LinePoint {
+  double x = 0;
+  Estimate y;
+};
+
+/// y = intercept + slope x.
+struct LineFit {
+  Estimate intercept;
+  Estimate slope;         ///< 0 +- 0 when all x are the same: then the intercept is the weighted mean
+  double chi_square = 0;  ///< sum of (residual / error)^2; 0 when the errors are unknown
+};
+
+/// Weighted least squares. When an error is unknown (0), all weights are 1 and the errors follow from the scatter
+/// about the line (0 when no point is left over to show one). Needs at least one point.
+LineFit fit_line(std::span<const LinePoint> points);
+
+struct MdRun {
+  double stiffness_level = 0;  ///< kappa
+  Estimate value;
+};
+
+struct CdRun {
+  double dt = 0;
+  double tolerance = 0;
+  Estimate value;
+};
+
+/// The limit that one engine's runs tend to.
+struct EngineLimit {
+  Estimate value;         ///< error: statistical and systematic parts together
+  Estimate slope;         ///< per 1/kappa (md) or per dt (cd)
+  double systematic = 0;  ///< cd: part of the error that comes from the tolerance
+  int runs = 0;           ///< in the fit; 1: not extrapolated
+};
+
+/// None without runs.
+std::optional<EngineLimit> md_limit(std::span<const MdRun> runs);
+std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs);
+
+struct RigidLimit {
+  std::optional<EngineLimit> md, cd;
+  Estimate combined;                   ///< of the limits that exist
+  std::optional<Estimate> difference;  ///< md - cd, when both exist
+  std::optional<bool> agree;           ///< within two standard errors of the difference
+};
+
+/// Needs at least one run. Runs whose value is not finite are left out.
+RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd);
+
+/// Deviation of one run from the rigid limit, with the error of the difference (the two are taken as independent).
+Estimate deviation(const Estimate& value, const Estimate& limit);
+
+}  // namespace galet

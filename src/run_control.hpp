@@ -1,0 +1,30 @@
+// What a caller may ask of a run beyond its scene, and what the run says while it goes. None of this changes the
+// state that the run reaches.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string_view>
+
+#include "common/core/archive.hpp"
+
+namespace galet {
+
+struct Progress {
+  std::string_view stage;      ///< "run", or "compression" of the gas that the run starts from
+  long step = 0;
+  long steps = 0;              ///< of the stage; an upper bound when it may stop at equilibrium
+  double steps_per_second = 0;
+  double seconds_left = 0;     ///< of wall time, at the pace so far
+};
+
+struct RunControl {
+  std::function<void(const Progress&)> progress;      ///< called several times per second at most
+  std::function<bool()> stop;                         ///< true: stop after the current steps (a fraction of a second)
+  std::function<void(const Archive&)> checkpoint;     ///< called every `checkpoint_every` seconds of wall time
+  double checkpoint_every = std::numeric_limits<double>::infinity();
+  long most_steps = std::numeric_limits<long>::max();  ///< stop after so many steps (of the run proper)
+  bool keep_last_good = true;  ///< keep a copy of the state in memory, for RunResult::last_good
+};
+
+}  // namespace galet

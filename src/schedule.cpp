@@ -1,0 +1,41 @@
+#include "src/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/error.hpp"
+
+namespace galet {
+
+long Schedule::step_of(long sample) const { return std::lround(static_cast<double>(sample) * steps_per_sample); }
+
+long Schedule::samples_until(long steps) const {
+  long sample = std::max(0L, static_cast<long>(static_cast<double>(steps) / steps_per_sample) - 1);
+  while (step_of(sample + 1) <= steps) ++sample;
+  return sample;
+}
+
+void Schedule::save(Archive& archive) const {
+  archive.reals["run.steps_per_sample"] = {steps_per_sample};
+  archive.integers["run.samples_per_row"] = {samples_per_row};
+}
+
+void Schedule::restore(const Archive& archive) {
+  steps_per_sample = real_column(archive, "run.steps_per_sample").at(0);
+  samples_per_row = static_cast<int>(integer_column(archive, "run.samples_per_row").at(0));
+}
+
+long steps_for(double duration, double dt) {
+  require(duration > 0 && dt > 0, "a run needs a duration and a time step above 0");
+  // The slack keeps rounding in duration / dt from adding a step.
+  return std::max(1L, static_cast<long>(std::ceil(duration / dt * (1 - 1e-12))));
+}
+
+Schedule make_schedule(long total_steps, int rows, int samples_per_row) {
+  require(total_steps >= 1 && rows >= 1 && samples_per_row >= 1, "a schedule needs steps, rows and samples");
+  const long written = std::min<long>(rows, total_steps);
+  const long per_row = std::clamp<long>(total_steps / written, 1, samples_per_row);
+  return {static_cast<double>(total_steps) / static_cast<double>(written * per_row), static_cast<int>(per_row)};
+}
+
+}  // namespace galet

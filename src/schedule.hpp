@@ -1,0 +1,28 @@
+// When a run measures, in steps. The schedule is made once, from the length of the run; a checkpoint keeps it, so
+// that a resumed or a lengthened run goes on measuring at the same intervals.
+#pragma once
+
+#include "common/core/archive.hpp"
+
+namespace galet {
+
+struct Schedule {
+  double steps_per_sample = 1;  ///< >= 1
+  int samples_per_row = 1;
+
+  /// Step at whose end sample number `sample` (from 1) is taken.
+  long step_of(long sample) const;
+  /// Number of samples taken in the first `steps` steps.
+  long samples_until(long steps) const;
+
+  void save(Archive& archive) const;
+  void restore(const Archive& archive);
+};
+
+/// Steps of a run of `duration`: the first whole number of steps that reaches it.
+long steps_for(double duration, double dt);
+
+/// `rows` rows (fewer when there are fewer steps), each the mean of up to `samples_per_row` samples.
+Schedule make_schedule(long total_steps, int rows, int samples_per_row = 10);
+
+}  // namespace galet

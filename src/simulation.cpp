@@ -1,0 +1,289 @@
+#include "src/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/error.hpp"
+#include "common/scene/packing.hpp"
+#include "src/clock.hpp"
+#include "src/engines.hpp"
+#include "src/restart.hpp"
+
+namespace galet {
+
+namespace {
+
+void save_report(Archive& archive, const std::optional<CompressionReport>& report) {
+  if (!report) return;
+  archive.reals["run.compression"] = {report->time,     report->kinetic_per_grain, report->pressure,
+                                      report->solid_fraction, report->z,           report->cpu_seconds};
+  archive.integers["run.compression"] = {report->steps, report->equilibrium ? 1 : 0};
+}
+
+std::optional<CompressionReport> stored_report(const Archive& archive) {
+  if (!archive.reals.contains("run.compression")) return std::nullopt;
+  const auto& reals = real_column(archive, "run.compression");
+  const auto& integers = integer_column(archive, "run.compression");
+  return CompressionReport{reals.at(0), integers.at(0), reals.at(1), reals.at(2),
+                           reals.at(3), reals.at(4),    integers.at(1) != 0, reals.at(5)};
+}
+
+}  // namespace
+
+// ---- Construction ----
+
+template <int D>
+Simulation<D>::Simulation(const Scene& scene, EngineKind kind, std::vector<Override> overrides)
+    : scene_(scene), kind_(kind), overrides_(std::move(overrides)) {
+  const Sample<D> sample = initial_sample<D>(scene_);
+  derived_ = derive(scene_, grain_facts(scene_, sample));
+  if (scene_.initial.kind == InitialKind::compressed_gas)
+    compression_ = std::make_unique<Simulation>(compression_scene(scene_, derived_), kind_, sample);
+  else
+    start_run(sample);
+}
+
+template <int D>
+Simulation<D>::Simulation(const Scene& scene, EngineKind kind, const Sample<D>& start) : scene_(scene), kind_(kind) {
+  start_run(start);
+}
+
+template <int D>
+Simulation<D>::Simulation(const Scene& scene, EngineKind kind, std::vector<Override> overrides, const Archive& archive)
+    : scene_(scene), kind_(kind), overrides_(std::move(overrides)) {
+  const Sample<D> sample = stored_sample<D>(archive);
+  derived_ = derive(scene_, grain_facts(scene_, sample));
+  const bool compressing = archive.integers.contains("run.compressing");
+  if (compressing && scene_.initial.kind == InitialKind::compressed_gas) {
+    compression_.reset(new Simulation(compression_scene(scene_, derived_), kind_, {}, archive));
+  } else {
+    start_run(sample);
+    restore(archive);
+  }
+}
+
+template <int D>
+Simulation<D> Simulation<D>::resume(const Scene& scene, const Archive& archive) {
+  return Simulation(scene, stored_engine(archive), stored_overrides(archive), archive);
+}
+
+template <int D>
+void Simulation<D>::start_run(const Sample<D>& start) {
+  start_ = start;
+  derived_ = derive(scene_, grain_facts(scene_, start_));
+  engine_ = make_engine<D>(kind_, scene_, derived_, start_);
+  if (scene_.run.equilibrium) equilibrium_.emplace(scene_, derived_, start_, *scene_.run.equilibrium);
+  scale_ = measure_scale(derived_, kind_ == EngineKind::cd);
+  total_steps_ = steps_for(derived_.duration, engine_->dt());
+  schedule_ = make_schedule(total_steps_, scene_.run.samples);
+  series_.dimension = D;
+}
+
+// ---- Checkpoints ----
+
+template <int D>
+Archive Simulation<D>::checkpoint() const {
+  if (compression_) {
+    Archive archive = compression_->checkpoint();
+    archive.integers["run.compressing"] = {1};
+    save_scene(archive, scene_, kind_, overrides_);
+    return archive;
+  }
+  Archive archive;
+  engine_->save(archive);
+  save_scene(archive, scene_, kind_, overrides_);
+  save_sample(archive, start_);
+  save_report(archive, compression_report_);
+  schedule_.save(archive);
+  series_.save(archive);
+  row_.save(archive);
+  archive.reals["run.last"].assign(last_.values.begin(), last_.values.end());
+  archive.reals["run.seconds"] = {cpu_seconds_, wall_seconds_};
+  return archive;
+}
+
+template <int D>
+void Simulation<D>::restore(const Archive& archive) {
+  engine_->restore(archive);
+  compression_report_ = stored_report(archive);
+  schedule_.restore(archive);
+  samples_ = schedule_.samples_until(engine_->steps());
+  series_.restore(archive);
+  row_.restore(archive);
+  const auto& last = real_column(archive, "run.last");
+  std::copy_n(last.begin(), std::min<std::size_t>(last.size(), observable_count), last_.values.begin());
+  const auto& seconds = real_column(archive, "run.seconds");
+  cpu_seconds_ = seconds.at(0), wall_seconds_ = seconds.at(1);
+}
+
+// ---- The stage before ----
+
+template <int D>
+Sample<D> Simulation<D>::rest_sample() {
+  const Snapshot<D> snapshot = engine().snapshot();
+  Sample<D> sample;
+  sample.resize(snapshot.grains());
+  sample.cell = *snapshot.cell;
+  sample.cell.rate.setZero();
+  sample.planes.assign(snapshot.planes.begin(), snapshot.planes.end());
+  sample.position.assign(snapshot.position.begin(), snapshot.position.end());
+  sample.radius.assign(snapshot.radius.begin(), snapshot.radius.end());
+  sample.mass.assign(snapshot.mass.begin(), snapshot.mass.end());
+  return sample;
+}
+
+template <int D>
+bool Simulation<D>::prepare(const RunControl& control, RunResult& result) {
+  if (!compression_) return true;
+  RunControl stage = control;
+  stage.most_steps = std::numeric_limits<long>::max();
+  if (control.checkpoint) stage.checkpoint = [&](const Archive&) { control.checkpoint(checkpoint()); };
+  return settle(compression_->run(stage), result);
+}
+
+/// Takes the compressed gas over, if it is one, as the start of the run proper.
+template <int D>
+bool Simulation<D>::settle(const RunResult& gas, RunResult& result) {
+  const double pressure = *derived_.pressure;
+  result = gas;
+  result.notes.clear();
+  if (gas.ending == Ending::interrupted) return false;
+  if (gas.ending == Ending::failed) {
+    result.failure = "while the gas was compressed: " + gas.failure;
+    return false;
+  }
+  if (std::abs(gas.last[Observable::pressure] - pressure) > compression_stress_limit * pressure) {
+    result.ending = Ending::failed;
+    result.failure = fmt::format("the gas was compressed for {:g}, and its mean stress is {:.3g} instead of {:.3g}",
+                                 gas.time, gas.last[Observable::pressure], pressure);
+    return false;
+  }
+  compression_report_ = CompressionReport{gas.time,
+                                          gas.steps,
+                                          gas.last[Observable::kinetic_per_grain],
+                                          gas.last[Observable::pressure],
+                                          gas.last[Observable::solid_fraction],
+                                          gas.last[Observable::z],
+                                          gas.ending == Ending::equilibrium,
+                                          gas.cpu_seconds};
+  start_run(compression_->rest_sample());
+  compression_.reset();
+  return true;
+}
+
+// ---- The run ----
+
+template <int D>
+RunResult Simulation<D>::run(const RunControl& control) {
+  RunResult result;
+  if (!prepare(control, result)) return result;
+  const bool inner = scene_.run.equilibrium && scene_.initial.kind == InitialKind::gas;
+  Pace pace(control, inner ? "compression" : "run", engine_->steps(), total_steps_);
+  try {
+    if (control.keep_last_good && pace.copy_due()) last_good_ = checkpoint();
+    result.ending = loop(control, pace);
+  } catch (const RunError& error) {
+    result.ending = Ending::failed;
+    result.failure = error.what();
+    result.last_good = std::move(last_good_);
+  }
+  report(result);
+  return result;
+}
+
+template <int D>
+Ending Simulation<D>::loop(const RunControl& control, Pace& pace) {
+  const long allowed = std::min(total_steps_ - engine_->steps(), control.most_steps);
+  const long last = engine_->steps() + std::max(0L, allowed);
+  while (engine_->steps() < last) {
+    const long sample_step = schedule_.step_of(samples_ + 1);
+    take_steps(std::min({sample_step - engine_->steps(), last - engine_->steps(), pace.bite()}));
+    pace.reached(engine_->steps());
+    if (engine_->steps() == sample_step && take_sample(pace)) return Ending::equilibrium;
+    if (pace.checkpoint_due()) control.checkpoint(checkpoint());
+    if (control.stop && engine_->steps() < total_steps_ && control.stop()) return Ending::interrupted;
+  }
+  return engine_->steps() < total_steps_ ? Ending::interrupted : Ending::finished;
+}
+
+template <int D>
+void Simulation<D>::take_steps(long count) {
+  const double wall = wall_seconds(), cpu = thread_seconds();
+  engine_->advance(count);
+  wall_seconds_ += wall_seconds() - wall;
+  cpu_seconds_ += thread_seconds() - cpu;
+}
+
+/// True when the sample shows the equilibrium that the scene asks for.
+template <int D>
+bool Simulation<D>::take_sample(Pace& pace) {
+  last_ = measure(*engine_, scale_);
+  ++samples_;
+  row_.add(last_);
+  const bool settled = equilibrium_ && equilibrium_->reached(last_);
+  if (settled || row_.samples() == schedule_.samples_per_row) {
+    series_.rows.push_back(row_.finish(scale_));
+    if (pace.copy_due()) last_good_ = checkpoint();
+  }
+  return settled;
+}
+
+// ---- What is handed back ----
+
+template <int D>
+void Simulation<D>::report(RunResult& result) const {
+  result.engine = kind_;
+  result.layout = engine_->layout();
+  result.dt = engine_->dt();
+  result.time = engine_->time();
+  result.strain = scale_.shear_rate * engine_->time();
+  result.steps = engine_->steps();
+  result.total_steps = total_steps_;
+  result.series = series_;
+  result.averages = averages(series_, scene_.run.average_from);
+  result.last = last_;
+  result.solver = engine_->solver_summary();
+  result.cpu_seconds = cpu_seconds_;
+  result.wall_seconds = wall_seconds_;
+  for (std::size_t k = 0; k < result.stage_seconds.size(); ++k)
+    result.stage_seconds[k] = engine_->profile().seconds(static_cast<Stage>(k));
+  result.compression = compression_report_;
+  if (result.ending != Ending::failed) {
+    Archive state;
+    engine_->save(state);
+    result.state_hash = state_hash(state);
+  }
+  add_notes(result);
+}
+
+template <int D>
+std::optional<std::string> Simulation<D>::compression_note() const {
+  if (!compression_report_ || compression_report_->equilibrium) return std::nullopt;
+  const double energy = compression_report_->kinetic_per_grain / *derived_.pressure;
+  return fmt::format(
+      "the compression stopped at its limit of {:g} inertial times, short of equilibrium: kinetic energy per grain "
+      "{:.2g} P d^D, mean stress {:.4g}",
+      compression_limit, energy / std::pow(derived_.grains.mean_diameter, D), compression_report_->pressure);
+}
+
+template <int D>
+void Simulation<D>::add_notes(RunResult& result) const {
+  if (const auto note = compression_note()) result.notes.push_back(*note);
+  if (equilibrium_ && result.ending == Ending::finished)
+    result.notes.push_back(fmt::format(
+        "the run ended before equilibrium: kinetic energy per grain {:.3g} (asked: below {:.3g}), stress {}",
+        last_[Observable::kinetic_per_grain], equilibrium_->largest_energy(),
+        equilibrium_->balanced(last_) ? "within 1 %" : "off by more than 1 %"));
+  if (result.solver.missed > 0)
+    result.notes.push_back(
+        fmt::format("the contact solver missed its tolerance in {} of {} steps (worst residual {:.2g}): raise "
+                    "cd.max_sweeps or lower cd.dt_factor",
+                    result.solver.missed, result.solver.steps, result.solver.worst_residual));
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace galet

@@ -1,0 +1,66 @@
+// The series of a run: rows in time, each the mean of the samples taken since the row before (an instantaneous
+// stress is noisy, so a run samples more often than it writes), and the averages of a part of the run.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/core/archive.hpp"
+#include "common/io/csv.hpp"
+#include "common/measure/block_average.hpp"
+#include "src/measure.hpp"
+#include "src/observable.hpp"
+
+namespace galet {
+
+/// Collects the samples of one row.
+class RowAverager {
+ public:
+  void add(const Measurement& sample);
+  int samples() const { return samples_; }
+  /// The row of the samples so far; starts the next row.
+  Measurement finish(const MeasureScale& scale);
+
+  void save(Archive& archive) const;
+  void restore(const Archive& archive);
+
+ private:
+  Measurement sums_;
+  int samples_ = 0;
+};
+
+struct TimeSeries {
+  int dimension = 2;
+  std::vector<Measurement> rows;
+
+  /// Values of one observable in the rows whose time is above `from`.
+  std::vector<double> column(Observable observable, double from = -1) const;
+
+  void save(Archive& archive) const;
+  void restore(const Archive& archive);
+};
+
+/// Averages over the rows whose time is above `from`, each with its standard error by blocking.
+struct Averages {
+  double from = 0;
+  int rows = 0;
+  std::array<Estimate, observable_count> values{};
+  const Estimate& operator[](Observable observable) const { return values[static_cast<int>(observable)]; }
+};
+
+/// Takes the last part of the series, from the fraction `average_from` of its time on. mu* is the ratio of the mean
+/// stresses (the mean of ratios is biased by the fluctuations of sigma_yy). peak_overlap is the largest, not a mean.
+Averages averages(const TimeSeries& series, double average_from);
+
+/// Mean of |numerator| over mean of denominator, with the error of the ratio: the block average of
+/// (n - R d) / <d>. Assumes one sign of the numerator's mean; NaN when <d> is not positive.
+Estimate ratio_of_means(const std::vector<double>& numerator, const std::vector<double>& denominator);
+
+/// Is the observable a column of tables in this dimension?
+inline bool shown(Observable observable, int dimension) { return dimension == 3 || !info(observable).only_3d; }
+
+/// The series as a table: one column per observable, an empty cell where one has no meaning.
+CsvTable to_table(const TimeSeries& series);
+
+}  // namespace galet
