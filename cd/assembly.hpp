@@ -118,6 +118,7 @@ class Assembly {
     // A grain that meets its own image moves with it: only the cell can part them.
     const double masses = i == j ? 0 : problem.inverse_mass[i] + problem.inverse_mass[j];
     const double w_n = masses + hub;
+    problem.wn[k] = w_n;
     problem.inverse_wn[k] = w_n > 0 ? 1 / w_n : 0;
     if constexpr (Y.friction) {
       const bool grain_j = j < bodies.grains();

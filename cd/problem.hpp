@@ -62,7 +62,7 @@ struct Problem {
   Column<Vec<D>> normal;        ///< n
   Column<double> distance;      ///< |b|
   Column<double> offset;        ///< u_N + offset >= 0
-  Column<double> inverse_wn;    ///< 1 / W_NN
+  Column<double> wn, inverse_wn; ///< W_NN and 1 / W_NN (both 0 where nothing can move the contact)
   Column<double, Y.friction> inverse_wt;     ///< 1 / W_TT
   Column<double, Y.friction> arm_i, arm_j;   ///< l_i, l_j
   std::vector<int> group;       ///< contacts group[c] .. group[c + 1] have one colour
@@ -72,7 +72,7 @@ struct Problem {
 
   void resize(std::size_t contacts) {
     i.resize(contacts), j.resize(contacts), normal.resize(contacts), distance.resize(contacts);
-    offset.resize(contacts), inverse_wn.resize(contacts), inverse_wt.resize(contacts);
+    offset.resize(contacts), wn.resize(contacts), inverse_wn.resize(contacts), inverse_wt.resize(contacts);
     arm_i.resize(contacts), arm_j.resize(contacts);
   }
 };
@@ -88,13 +88,14 @@ struct Iterate {
   Column<Reaction<Y>> reaction;
 };
 
-/// Relative velocity u of contact k, spin terms included.
+/// Relative velocity u of contact k, spin terms included, for the velocity gradient L of the cell.
 template <Layout Y>
-inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>& iterate, std::size_t k) {
+inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>& iterate, const Mat<Y.dim>& gradient,
+                                    std::size_t k) {
   constexpr int D = Y.dim;
   const int i = problem.i[k], j = problem.j[k];
   const Vec<D>& n = problem.normal[k];
-  Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (iterate.gradient * n);
+  Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (gradient * n);
   if constexpr (Y.friction) {
     const Spin<D> rolling = problem.arm_i[k] * iterate.spin[i] + problem.arm_j[k] * iterate.spin[j];
     u -= cross(rolling, n);

@@ -46,17 +46,17 @@ inline void project_on_cone(double mu, double& z_n, Tangent& z_t, double norm_t)
 template <Layout Y>
 inline ResidualParts contact_residual(const Problem<Y>& problem, const Iterate<Y>& iterate, std::size_t k) {
   constexpr int D = Y.dim;
-  const Vec<D> u = relative_velocity(problem, iterate, k);
+  const Vec<D> u = relative_velocity(problem, iterate, iterate.gradient, k);
   const Vec<D>& n = problem.normal[k];
   const Reaction<Y>& r = iterate.reaction[k];
   const double u_n = n.dot(u) + problem.offset[k];
   if (problem.inverse_wn[k] == 0) return {};  // nothing can move this contact
   if constexpr (!Y.friction) {
-    const double w = 1 / problem.inverse_wn[k];
+    const double w = problem.wn[k];
     const double miss = r[0] - std::max(0.0, r[0] - u_n / w);
     return {w * miss * miss, w * r[0] * r[0]};
   } else {
-    const double w = (1 / problem.inverse_wn[k] + (D - 1) / problem.inverse_wt[k]) / D;
+    const double w = (problem.wn[k] + (D - 1) / problem.inverse_wt[k]) / D;
     const Vec<D> u_t = u - n.dot(u) * n;
     const Vec<D> p = impulse_vector<Y>(n, r);
     const double p_n = n.dot(p);

@@ -223,10 +223,6 @@ RigidLimit limit_of(const std::vector<const CompareRow*>& rows, Estimate Compare
   return rigid_limit(md, cd);
 }
 
-bool has_value(const CompareRow& row) {
-  return row.usable() && std::isfinite(row.mu_star.value) && std::isfinite(row.z.value);
-}
-
 }  // namespace
 
 std::vector<StateLimit> state_limits(const std::vector<CompareRow>& rows) {
@@ -238,7 +234,7 @@ std::vector<StateLimit> state_limits(const std::vector<CompareRow>& rows) {
   for (const auto& state : states) {
     std::vector<const CompareRow*> members;
     for (const CompareRow& row : rows)
-      if (row.plan.inertial_number == state && has_value(row)) members.push_back(&row);
+      if (row.plan.inertial_number == state && row.usable()) members.push_back(&row);
     if (members.empty()) continue;
     limits.push_back({state, limit_of(members, &CompareRow::mu_star), limit_of(members, &CompareRow::solid_fraction),
                       limit_of(members, &CompareRow::z)});

@@ -8,8 +8,8 @@ namespace {
 constexpr double bite_seconds = 0.2, report_seconds = 0.2, copy_seconds = 1;
 }
 
-Pace::Pace(const RunControl& control, std::string_view stage, long step, long steps)
-    : control_(control), stage_(stage), first_step_(step), steps_(steps), step_(step) {}
+Pace::Pace(const RunControl& control, long step, long steps)
+    : control_(control), first_step_(step), steps_(steps), step_(step) {}
 
 long Pace::bite() const {
   const double elapsed = wall_seconds() - start_;
@@ -22,7 +22,7 @@ void Pace::reached(long step) {
   const double now = wall_seconds();
   if (!control_.progress || now - reported_ < report_seconds) return;
   reported_ = now;
-  Progress progress{stage_, step, steps_, 0, 0};
+  Progress progress{control_.stage, step, steps_, 0, 0};
   if (now > start_) progress.steps_per_second = static_cast<double>(step - first_step_) / (now - start_);
   if (progress.steps_per_second > 0)
     progress.seconds_left = static_cast<double>(steps_ - step) / progress.steps_per_second;

@@ -2,8 +2,6 @@
 // times per second. It looks at the clock and changes nothing of the state.
 #pragma once
 
-#include <string_view>
-
 #include "src/clock.hpp"
 #include "src/run_control.hpp"
 
@@ -11,7 +9,7 @@ namespace galet {
 
 class Pace {
  public:
-  Pace(const RunControl& control, std::string_view stage, long step, long steps);
+  Pace(const RunControl& control, long step, long steps);
 
   /// Steps that take about a fifth of a second.
   long bite() const;
@@ -23,7 +21,6 @@ class Pace {
 
  private:
   const RunControl& control_;
-  std::string_view stage_;
   long first_step_, steps_, step_;
   double start_ = wall_seconds();
   double reported_ = 0, saved_ = start_, copied_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "common/core/error.hpp"
@@ -135,8 +136,9 @@ std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs) {
 
 RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd) {
   RigidLimit limit{md_limit(md), cd_limit(cd), {}, {}, {}};
-  require(limit.md || limit.cd, "a rigid limit needs at least one run with a finite value");
-  if (limit.md && limit.cd) {
+  if (!limit.md && !limit.cd) {
+    limit.combined.value = std::numeric_limits<double>::quiet_NaN();
+  } else if (limit.md && limit.cd) {
     limit.combined = combine(limit.md->value, limit.cd->value);
     limit.difference = deviation(limit.md->value, limit.cd->value);
     limit.agree = std::abs(limit.difference->value) <= 2 * limit.difference->error;

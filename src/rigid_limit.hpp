@@ -64,7 +64,7 @@ struct RigidLimit {
   std::optional<bool> agree;           ///< within two standard errors of the difference
 };
 
-/// Needs at least one run. Runs whose value is not finite are left out.
+/// Runs whose value is not finite are left out; without any run the combined limit is NaN.
 RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd);
 
 /// Deviation of one run from the rigid limit, with the error of the difference (the two are taken as independent).

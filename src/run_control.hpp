@@ -19,6 +19,7 @@ struct Progress {
 };
 
 struct RunControl {
+  std::string_view stage = "run";                     ///< what progress calls it
   std::function<void(const Progress&)> progress;      ///< called several times per second at most
   std::function<bool()> stop;                         ///< true: stop after the current steps (a fraction of a second)
   std::function<void(const Archive&)> checkpoint;     ///< called every `checkpoint_every` seconds of wall time

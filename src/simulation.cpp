@@ -65,8 +65,10 @@ Simulation<D>::Simulation(const Scene& scene, EngineKind kind, std::vector<Overr
 }
 
 template <int D>
-Simulation<D> Simulation<D>::resume(const Scene& scene, const Archive& archive) {
-  return Simulation(scene, stored_engine(archive), stored_overrides(archive), archive);
+Simulation<D> Simulation<D>::resume(const Scene& scene, const Archive& archive, const std::vector<Override>& more) {
+  std::vector<Override> overrides = stored_overrides(archive);
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return Simulation(scene, stored_engine(archive), std::move(overrides), archive);
 }
 
 template <int D>
@@ -121,16 +123,26 @@ void Simulation<D>::restore(const Archive& archive) {
 // ---- The stage before ----
 
 template <int D>
-Sample<D> Simulation<D>::rest_sample() {
+Sample<D> Simulation<D>::present_sample() {
   const Snapshot<D> snapshot = engine().snapshot();
   Sample<D> sample;
   sample.resize(snapshot.grains());
   sample.cell = *snapshot.cell;
-  sample.cell.rate.setZero();
   sample.planes.assign(snapshot.planes.begin(), snapshot.planes.end());
   sample.position.assign(snapshot.position.begin(), snapshot.position.end());
+  sample.velocity.assign(snapshot.velocity.begin(), snapshot.velocity.end());
+  if (!snapshot.spin.empty()) sample.spin.assign(snapshot.spin.begin(), snapshot.spin.end());
   sample.radius.assign(snapshot.radius.begin(), snapshot.radius.end());
   sample.mass.assign(snapshot.mass.begin(), snapshot.mass.end());
+  return sample;
+}
+
+template <int D>
+Sample<D> Simulation<D>::rest_sample() {
+  Sample<D> sample = present_sample();
+  sample.cell.rate.setZero();
+  std::fill(sample.velocity.begin(), sample.velocity.end(), Vec<D>::Zero());
+  std::fill(sample.spin.begin(), sample.spin.end(), zero_spin<D>());
   return sample;
 }
 
@@ -138,6 +150,7 @@ template <int D>
 bool Simulation<D>::prepare(const RunControl& control, RunResult& result) {
   if (!compression_) return true;
   RunControl stage = control;
+  stage.stage = "compression";
   stage.most_steps = std::numeric_limits<long>::max();
   if (control.checkpoint) stage.checkpoint = [&](const Archive&) { control.checkpoint(checkpoint()); };
   return settle(compression_->run(stage), result);
@@ -148,7 +161,7 @@ template <int D>
 bool Simulation<D>::settle(const RunResult& gas, RunResult& result) {
   const double pressure = *derived_.pressure;
   result = gas;
-  result.notes.clear();
+  result.notes = {"this was the compression of the gas, before the run proper"};
   if (gas.ending == Ending::interrupted) return false;
   if (gas.ending == Ending::failed) {
     result.failure = "while the gas was compressed: " + gas.failure;
@@ -179,8 +192,7 @@ template <int D>
 RunResult Simulation<D>::run(const RunControl& control) {
   RunResult result;
   if (!prepare(control, result)) return result;
-  const bool inner = scene_.run.equilibrium && scene_.initial.kind == InitialKind::gas;
-  Pace pace(control, inner ? "compression" : "run", engine_->steps(), total_steps_);
+  Pace pace(control, engine_->steps(), total_steps_);
   try {
     if (control.keep_last_good && pace.copy_due()) last_good_ = checkpoint();
     result.ending = loop(control, pace);

@@ -37,8 +37,9 @@ class Simulation {
   Simulation(const Scene& scene, EngineKind kind, std::vector<Override> overrides = {});
   /// Starts from `start` whatever the scene says about its initial state.
   Simulation(const Scene& scene, EngineKind kind, const Sample<D>& start);
-  /// Goes on from a checkpoint. `scene` is the one that wrote it (see stored_scene), run lengths excepted.
-  static Simulation resume(const Scene& scene, const Archive& archive);
+  /// Goes on from a checkpoint. `scene` is the one that wrote it, with changes of [run] at most (`more`, see
+  /// stored_scene).
+  static Simulation resume(const Scene& scene, const Archive& archive, const std::vector<Override>& more = {});
 
   /// Runs to the end of the scene's duration, or until something else ends it (Ending). May be called again
   /// after an interruption. A sound engine error doesn't throw: the result says so.
@@ -52,7 +53,8 @@ class Simulation {
   bool compressing() const { return compression_ != nullptr; }
   /// The engine of the present stage.
   Engine<D>& engine() { return compression_ ? compression_->engine() : *engine_; }
-  /// The present grains in their cell, all velocities and rates zero.
+  /// The present grains in their cell; the same with all velocities and rates zero.
+  Sample<D> present_sample();
   Sample<D> rest_sample();
 
   /// Runs only the stage before the run proper, if there is one: true when the run proper can start.

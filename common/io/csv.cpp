@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_mistakes = 20;
 
 /// A word as a cell: in quotes when it holds what would end the cell or the line.
-std::string quoted(const std::string& text) {
+std::string quoted_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos && !text.starts_with('#')) return text;
   std::string result = "\"";
   for (char letter : text) {
@@ -27,7 +27,7 @@ struct CellText {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(double value) const { return fmt::format("{}", value); }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& text) const { return quoted(text); }
+  std::string operator()(const std::string& text) const { return quoted_cell(text); }
 };
 
 /// One cell of a line: its text without quotes and blanks around, and the column (from 1) where it starts.
@@ -73,7 +73,8 @@ void write_csv(const std::string& path, const CsvTable& table) {
   const auto separator = [](std::size_t k) { return k == 0 ? "" : ","; };
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const CsvColumn& column = table.columns[k];
-    text += separator(k) + quoted(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
+    text += separator(k) +
+            quoted_cell(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
   }
   text += '\n';
   for (const std::vector<CsvCell>& row : table.rows) {

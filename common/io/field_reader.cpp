@@ -61,7 +61,10 @@ class FieldReader {
   std::optional<std::int64_t> whole_number(std::int64_t largest);
   std::optional<std::size_t> choice();
 
-  void refuse(const TreeNode& node, const std::string& hint = "") { refuse(node, expected(field_), hint); }
+  /// `node` is the field's value or, for arrays, one item of it.
+  void refuse(const TreeNode& node, const std::string& hint = "") {
+    refuse(node, &node == &node_ ? expected(field_) : expected_item(field_), hint);
+  }
   void refuse(const TreeNode& node, const std::string& what, const std::string& hint) {
     const Place& place = node.place;
     mistakes_.push_back({place.file, place.line, place.column,
@@ -96,7 +99,7 @@ void FieldReader::operator()(std::vector<bool>* target) {
     if (const bool* truth = std::get_if<bool>(&item.value))
       values.push_back(*truth);
     else
-      refuse(item, "true or false", "");
+      refuse(item);
   }
   if (mistakes_.empty()) *target = std::move(values);
 }
@@ -109,27 +112,20 @@ std::optional<double> FieldReader::number(const TreeNode& node) {
     value = number_with_unit(node, *text);
     if (!value) return std::nullopt;
   }
-  const bool valid = value && std::isfinite(*value) && field_.range.contains(*value);
-  if (!valid) {
-    // Within an array the item is at fault, not the array.
-    const std::string bounds = to_string(field_.range);
-    const bool item = &node != &node_;
-    const std::string what = with_article(field_.quantity) + (bounds.empty() ? "" : ' ' + bounds);
-    refuse(node, item ? what : expected(field_), value && !std::isfinite(*value) ? ", which is not finite" : "");
-    return std::nullopt;
-  }
-  return value;
+  if (value && std::isfinite(*value) && field_.range.contains(*value)) return value;
+  refuse(node, value && !std::isfinite(*value) ? ", which is not finite" : "");
+  return std::nullopt;
 }
 
 std::optional<double> FieldReader::number_with_unit(const TreeNode& node, const std::string& text) {
   const Quantity quantity = field_.quantity;
   if (quantity == Quantity::number) {
-    refuse(node, &node == &node_ ? expected(field_) : "a number", " (this field has no unit: leave out the quotes)");
+    const bool digits = text.find_first_of("0123456789") == 0;
+    refuse(node, digits ? " (this field has no unit: leave out the quotes)" : "");
     return std::nullopt;
   }
   if (units_.reduced) {
-    refuse(node, &node == &node_ ? expected(field_) : with_article(quantity),
-           "; values with units need units = \"SI\" at the top of the file");
+    refuse(node, "; values with units need units = \"SI\" at the top of the file");
     return std::nullopt;
   }
   const std::vector<int> dimensions = units_.dimension ? std::vector<int>{*units_.dimension} : std::vector<int>{2, 3};

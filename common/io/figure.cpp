@@ -29,7 +29,7 @@ constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6
 constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 6};
 
 /// A text between single quotes for gnuplot. Control characters would end the line of the script.
-std::string quoted(const std::string& text) {
+std::string quote(const std::string& text) {
   std::string result = "'";
   for (char letter : text) {
     if (letter == '\'') result += '\'';
@@ -72,11 +72,46 @@ std::string data_text(const Figure& figure) {
   return text;
 }
 
-/// The range of an axis when its points span less than a decade: gnuplot would label no tick of a logarithmic axis.
-std::string axis_text(char axis, bool logarithmic, const std::string& label) {
-  std::string text = fmt::format("set {}label {}\n", axis, quoted(label));
-  if (logarithmic) text += fmt::format("set logscale {0}\nset format {0} '10^{{%L}}'\nset m{0}tics 10\n", axis);
-  return text;
+struct Range {
+  double low = HUGE_VAL, high = 0;
+};
+
+/// What a logarithmic axis shows: all points that it can show and the upper ends of their error bars with a little
+/// room, and at least two powers of ten, as only these carry a number. (A lower end at or below 0 runs off the axis.)
+Range log_range(const Figure& figure, bool of_x) {
+  Range range;
+  for (const Series& series : figure.series)
+    for (std::size_t k = 0; k < series.x.size(); ++k) {
+      if (!drawable(figure, series, k)) continue;
+      const double value = of_x ? series.x[k] : series.y[k];
+      const double error = of_x || series.y_error.empty() || !std::isfinite(series.y_error[k]) ? 0 : series.y_error[k];
+      range.low = std::min(range.low, value - error > 0 ? value - error : value);
+      range.high = std::max(range.high, value + error);
+    }
+  if (range.high == 0) return {1, 10};
+  range.low /= 1.25, range.high *= 1.25;
+  if (std::floor(std::log10(range.high)) - std::ceil(std::log10(range.low)) < 1) {
+    range.low = std::pow(10, std::floor(std::log10(range.low)));
+    range.high = std::pow(10, std::ceil(std::log10(range.high)));
+  }
+  return range;
+}
+
+std::string axis_text(const Figure& figure, char axis) {
+  const bool of_x = axis == 'x', logarithmic = of_x ? figure.log_x : figure.log_y;
+  std::string text = fmt::format("set {}label {}\n", axis, quote(of_x ? figure.x_label : figure.y_label));
+  if (!logarithmic) return text;
+  const Range range = log_range(figure, of_x);
+  return text + fmt::format("set logscale {0}\nset format {0} '10^{{%L}}'\nset m{0}tics 10\nset {0}range [{1}:{2}]\n",
+                            axis, range.low, range.high);
+}
+
+/// Rows that the key will take below the plot, from the lengths of its labels.
+std::size_t key_rows(const Figure& figure) {
+  std::size_t longest = 0;
+  for (const Series& series : figure.series) longest = std::max(longest, series.label.size());
+  const std::size_t columns = std::max<std::size_t>(1, 700 / (9 * longest + 60));
+  return (figure.series.size() + columns - 1) / columns;
 }
 
 /// One "plot" clause.
@@ -86,22 +121,23 @@ std::string clause(const Figure& figure, std::size_t index, const std::string& d
   std::string style = series.line ? (errors ? "yerrorlines" : "linespoints") : (errors ? "yerrorbars" : "points");
   std::string title = series.label;
   const std::size_t hidden = series.x.size() - drawable_count(figure, series);
-  if (hidden > 0) title += fmt::format(" ({} points off the axes)", hidden);
+  if (hidden > 0) title += fmt::format(" ({} off the axes)", hidden);
   const std::size_t look = index % colours.size();
-  return fmt::format("{} index {} using {} with {} linecolor rgb '{}' pointtype {} pointsize 0.9 linewidth 1.5 {}",
-                     quoted(data), index, errors ? "1:2:3" : "1:2", style, colours[look], shapes[look],
-                     title.empty() ? "notitle" : "title " + quoted(title));
+  return fmt::format("{} index {} using {} with {} linecolor rgb '{}' pointtype {} pointsize 0.7 linewidth 1.5 {}",
+                     quote(data), index, errors ? "1:2:3" : "1:2", style, colours[look], shapes[look],
+                     title.empty() ? "notitle" : "title " + quote(title));
 }
 
 std::string script_text(const Figure& figure, const std::string& name) {
   std::string text =
       fmt::format("# gnuplot script; run it in its own folder: gnuplot {}\nset encoding utf8\nset title {}\n",
-                  quoted(name + ".gp"), quoted(figure.title));
-  text += axis_text('x', figure.log_x, figure.x_label);
-  text += axis_text('y', figure.log_y, figure.y_label);
+                  quote(name + ".gp"), quote(figure.title));
+  text += axis_text(figure, 'x') + axis_text(figure, 'y');
+  const auto room = [](bool logarithmic) { return logarithmic ? "0, 0" : "graph 0.03, graph 0.03"; };
+  text += fmt::format("set offsets {}, {}\n", room(figure.log_x), room(figure.log_y));
   text += "set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1\nset border linewidth 1.2\n";
-  text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nset errorbars 0.8\n";
-  text += "set key outside below center horizontal samplen 2.5\n";
+  text += "set errorbars 0.8\n";
+  text += "set key outside below center horizontal Left reverse samplen 2.5 height 0.8 spacing 1.1\n";
 
   std::string clauses;
   for (std::size_t k = 0; k < figure.series.size(); ++k) {
@@ -111,13 +147,15 @@ std::string script_text(const Figure& figure, const std::string& name) {
   if (clauses.empty())
     clauses = "set label 'no points to show' at graph 0.5, graph 0.5 center\nplot [1:10] [1:10] NaN notitle";
 
-  text += "set terminal svg size 800,600 font 'DejaVu Sans,15' background rgb 'white' enhanced\n";
-  text += fmt::format("set output {}\n{}\n", quoted("./" + name + ".svg"), clauses);
+  const std::size_t height = 540 + 22 * key_rows(figure);
+  text += fmt::format("set terminal svg size 800,{} font 'DejaVu Sans,15' background rgb 'white' enhanced\n", height);
+  text += fmt::format("set output {}\n{}\n", quote("./" + name + ".svg"), clauses);
   text += "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n";
-  text +=
-      "  set terminal pngcairo size 1600,1200 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced\n";
-  text += "} else {\n  set terminal png size 1600,1200 enhanced\n}\n";
-  return text + fmt::format("set output {}\nreplot\nset output\n", quoted("./" + name + ".png"));
+  text += fmt::format(
+      "  set terminal pngcairo size 1600,{} font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced\n",
+      2 * height);
+  text += "} else {\n  set terminal png size 800,600 enhanced\n}\n";
+  return text + fmt::format("set output {}\nreplot\nset output\n", quote("./" + name + ".png"));
 }
 
 std::string read_to_end(int descriptor) {

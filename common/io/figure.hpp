@@ -1,4 +1,5 @@
 // Figures through gnuplot. The data and the gnuplot script are kept beside the picture, so that a user can restyle it.
+// Texts are in gnuplot's enhanced notation: "10^{-3}", "{/:Italic I}"; nothing in them is ever executed.
 #pragma once
 
 #include <string>
@@ -19,8 +20,9 @@ struct Figure {
   std::vector<Series> series;
 };
 
-/// Writes STEM.dat, STEM.gp and, when gnuplot is installed, STEM.svg and STEM.png. Returns the picture's path, or an
-/// empty string when gnuplot is absent (the data and script are there all the same).
+/// Writes STEM.dat, STEM.gp and, when gnuplot is installed, STEM.svg and STEM.png. Returns the path of the SVG, or an
+/// empty string when gnuplot is absent (the data and script are there all the same). Points that a logarithmic axis
+/// can't show are left out of the picture and counted in the key. Throws RunError when gnuplot fails.
 std::string write_figure(const std::string& stem, const Figure& figure);
 
 }  // namespace galet

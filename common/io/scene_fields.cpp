@@ -136,6 +136,12 @@ std::string expected(const SceneField& field) {
   return std::visit(ExpectedOf{field}, field.target(scene));
 }
 
+std::string expected_item(const SceneField& field) {
+  Scene scene = scene_with_entries();
+  const bool truths = std::holds_alternative<std::vector<bool>*>(field.target(scene));
+  return truths ? "true or false" : with_range(with_article(field.quantity), field.range);
+}
+
 std::string default_text(const SceneField& field) {
   if (field.required) return "needed";
   if (!field.fallback.empty()) return field.fallback;

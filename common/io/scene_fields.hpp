@@ -74,6 +74,9 @@ std::string table_name(std::string_view path);
 /// Type and range of a field in words: "a pressure > 0", "true or false", "an array of lengths > 0".
 std::string expected(const SceneField& field);
 
+/// The same for one item of an array.
+std::string expected_item(const SceneField& field);
+
 /// The default of a field as the reference shows it.
 std::string default_text(const SceneField& field);
 

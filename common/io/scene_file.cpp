@@ -90,7 +90,10 @@ void SceneReader::read_entry(const TreeEntry& entry, const std::string& section,
   if (table != nullptr && table->list) return read_list(entry, *table);
   if (table != nullptr && entry.node.table() != nullptr) return read_table(entry.node, name, here);
   if (field != nullptr) return read_value(*field, entry.node, here);
-  refuse(entry.key_place, here, fmt::format("{}: expected one table [{}], got {}", name, name, shown(entry.node)));
+  const bool list = entry.node.list() != nullptr;
+  refuse(entry.key_place, here,
+         fmt::format("{}: expected a table [{}], got {}", name, name,
+                     list ? "a list: write it once, with single brackets" : shown(entry.node)));
 }
 
 void SceneReader::read_list(const TreeEntry& entry, const SceneSection& section) {
@@ -131,7 +134,11 @@ void SceneReader::require_fields(const TreeNode& table, const std::string& secti
 }
 
 void SceneReader::refuse_unknown(const TreeEntry& entry, const std::string& section, const std::string& path) {
-  const UnknownName unknown = explain_unknown(entry.key, section);
+  const auto* items = entry.node.list();
+  const bool list = items != nullptr && !items->empty() && items->front().table() != nullptr;
+  const bool table = list || entry.node.table() != nullptr;
+  const UnknownName unknown =
+      table && section.empty() ? explain_unknown_table(entry.key, list) : explain_unknown_key(entry.key, section);
   refuse(entry.key_place, joined(path, entry.key), unknown.message);
   for (const std::string& meant : unknown.meant) {
     const bool same_table = parent_path(meant) == section;
@@ -184,6 +191,10 @@ void complete(Scene& scene, const SceneReader& reader) {
   if (!reader.written("initial.solid_fraction") && gas && scene.dimension == 3) scene.initial.solid_fraction = 0.3;
 }
 
+bool names_field(const std::vector<Finding>& findings, const std::string& path) {
+  return std::any_of(findings.begin(), findings.end(), [&path](const Finding& found) { return found.path == path; });
+}
+
 std::vector<Finding> check_packing_file(const Scene& scene) {
   if (scene.initial.kind != InitialKind::packing || scene.initial.file.empty()) return {};
   const std::filesystem::path file = std::filesystem::path(scene.directory) / scene.initial.file;
@@ -203,8 +214,9 @@ Scene read(std::string_view text, const std::string& name, const std::string& di
   scene.directory = directory;
   complete(scene, reader);
   reader.add_findings(check_presence(scene, [&reader](const std::string& path) { return reader.written(path); }));
-  reader.add_findings(check(scene));
-  if (!directory.empty()) reader.add_findings(check_packing_file(scene));
+  const std::vector<Finding> findings = check(scene);
+  reader.add_findings(findings);
+  if (!directory.empty() && !names_field(findings, "initial.file")) reader.add_findings(check_packing_file(scene));
   mistakes.insert(mistakes.end(), reader.mistakes().begin(), reader.mistakes().end());
   std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);

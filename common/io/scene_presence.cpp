@@ -18,13 +18,12 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
       findings.push_back({path, fmt::format("{} is needed with units = \"SI\"", path), {"units", "initial.kind"}});
   };
   const InitialKind kind = scene.initial.kind;
-  const bool listed = kind == InitialKind::listed;
-  const bool drawn = !listed && kind != InitialKind::packing;
+  const bool drawn = kind != InitialKind::listed && kind != InitialKind::packing;
   exclusive("md.dt", "md.steps_per_contact");
   exclusive("cd.dt", "cd.dt_factor");
   if (drawn) exclusive("cell.size", "initial.solid_fraction");
   idle(drawn, "initial.solid_fraction", "has no effect on listed grains and packings");
-  idle(!listed, "grains.diameter", "has no effect on listed grains: give each [[grain]] its own");
+  idle(drawn, "grains.diameter", "has no effect on listed grains and packings, which have their own");
   if (scene.grains.diameter.kind == SizeKind::discrete)
     idle(false, "grains.diameter.mean", "has no effect with distribution = \"discrete\"");
   if (drawn) needed_in_si("grains.diameter");

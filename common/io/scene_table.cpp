@@ -40,7 +40,7 @@ void add_grains(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.count; },
                   .symbol = "N",
                   .range = at_least(1),
-                  .fallback = "needed, except with listed grains or a packing file",
+                  .fallback = "needed, unless grains are listed or read from a file",
                   .doc = "number of grains"});
   rows.push_back({.path = "grains.diameter",
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.mean; },
@@ -184,7 +184,7 @@ void add_initial(Rows& rows) {
   rows.push_back({.path = "initial.file",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.file; },
                   .fallback = "packing: needed",
-                  .doc = "packing: a CSV file or a LAMMPS data file, its path relative to the scene file"});
+                  .doc = "packing: a table (.csv) or a LAMMPS data file (.data), its path relative to the scene file"});
   rows.push_back({.path = "initial.friction",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.friction; },
                   .range = at_least(0),
@@ -203,7 +203,8 @@ void add_cell(Rows& rows) {
        .quantity = Quantity::length,
        .range = above(0),
        .fallback = "from count, solid fraction and aspect",
-       .doc = "edge lengths; excludes `aspect` and `initial.solid_fraction`; needed with [[grain]] entries"});
+       .doc = "edge lengths; excludes `aspect` and `initial.solid_fraction`; needed with [[grain]] entries if a "
+              "direction is periodic"});
   rows.push_back({.path = "cell.aspect",
                   .target = [](Scene& s) -> FieldTarget { return &s.cell.aspect; },
                   .range = above(0),

@@ -21,7 +21,7 @@ namespace {
 // Line width of a force chain: this many mean diameters at the mean force, in proportion up to the saturation.
 constexpr double width_at_mean = 0.11;
 constexpr double saturation = 4;
-constexpr double thinnest = 0.3;  // pixels
+constexpr double thinnest = 0.3, thickest_at_mean = 5;  // pixels
 constexpr const char* font = "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\"";
 
 /// Colours of compressive forces from weak to strong: dark enough on white and on light grey from the first on, and
@@ -128,15 +128,13 @@ class Picture {
       high_ = high_.cwiseMax(x + Vec<2>::Constant(margin));
     };
     for (int corner = 1; corner < 4; ++corner) include(cell_.box * Vec<2>(corner & 1, corner >> 1), 0);
-    for (int i = 0; i < snapshot_.grains(); ++i) {
+    const Vec<2> width = face_distances<2>(cell_.box);
+    for (int i = 0; i < snapshot_.grains(); ++i) {  // grains may stick out where the cell is not periodic
       const Vec<2> s = wrapped_fraction<2>(cell_, inverse_, snapshot_.position[i]);
-      if (!cell_.periodic[0] && !cell_.periodic[1]) include(cell_.box * s, snapshot_.radius[i]);
-      // Outside along the one free direction: what a periodic direction cuts off needs no room.
-      const Vec<2> end = cell_.box * s;
-      if (!cell_.periodic[1])
-        include(Vec<2>(std::clamp(end.x(), low_.x(), high_.x()), end.y()), snapshot_.radius[i] / 2);
-      if (!cell_.periodic[0])
-        include(Vec<2>(end.x(), std::clamp(end.y(), low_.y(), high_.y())), snapshot_.radius[i] / 2);
+      for (int a = 0; a < 2; ++a) {
+        const double extent = snapshot_.radius[i] / width[a];
+        if (!cell_.periodic[a] && (s[a] < extent || s[a] > 1 - extent)) include(cell_.box * s, snapshot_.radius[i]);
+      }
     }
     if (!snapshot_.planes.empty()) {
       low_ -= Vec<2>::Constant(0.8 * diameter_);  // room for the hatching
@@ -207,7 +205,8 @@ class Picture {
   }
 
   double chain_width(double relative_force) const {
-    return std::max(thinnest, width_at_mean * diameter_ * scale_ * std::min(relative_force, saturation));
+    const double at_mean = std::min(width_at_mean * diameter_ * scale_, thickest_at_mean);
+    return std::max(thinnest, at_mean * std::min(relative_force, saturation));
   }
   double relative(std::size_t contact) const {
     return mean_force_ > 0 ? std::abs(normal_force_[contact]) / mean_force_ : 0;
@@ -284,9 +283,9 @@ class Picture {
   void draw_head() {
     const Coordination network = coordination<2>(snapshot_, !snapshot_.spin.empty());
     draw_text(24, 30, 18, "start", "#111111", options_.title.empty() ? "Force chains" : options_.title);
-    std::string facts = fmt::format("{} grains   Φ = {:.3f}   z = {:.2f}   t = {:.4g}", snapshot_.grains(),
+    std::string facts = fmt::format("{} grains · Φ = {:.3f} · z = {:.2f} · t = {:.4g}", snapshot_.grains(),
                                     solid_fraction<2>(snapshot_), network.z, snapshot_.time);
-    if (!snapshot_.engine.empty()) facts = fmt::format("{}   {}", snapshot_.engine, facts);
+    if (!snapshot_.engine.empty()) facts = fmt::format("{} · {}", snapshot_.engine, facts);
     draw_text(24, 51, 13, "start", "#555555", facts);
   }
 

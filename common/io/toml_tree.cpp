@@ -132,7 +132,8 @@ TreeNode& followed(TreeNode& node, const PathStep& step, const Place& place) {
   const std::size_t size = items == nullptr ? 0 : items->size();
   if (*step.index >= size)
     throw InputError(
-        {{place.file, 0, 0, fmt::format("no {}[{}]: [[{}]] has {} entries", step.key, *step.index, step.key, size)}});
+        {{place.file, 0, 0,
+          fmt::format("no {}[{}]: the number of [[{}]] entries is {}", step.key, *step.index, step.key, size)}});
   return (*items)[*step.index];
 }
 
@@ -169,7 +170,10 @@ std::string shown(const TreeNode& node) {
     std::string operator()(std::monostate) const { return "a date or time"; }
     std::string operator()(bool truth) const { return truth ? "true" : "false"; }
     std::string operator()(std::int64_t integer) const { return fmt::format("{}", integer); }
-    std::string operator()(double real) const { return fmt::format("{}", real); }
+    std::string operator()(double real) const {
+      const std::string digits = fmt::format("{}", real);
+      return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+    }
     std::string operator()(const std::string& text) const {
       if (text.size() <= 60) return quoted(text);
       std::size_t cut = 57;

@@ -9,14 +9,10 @@ namespace galet {
 
 namespace {
 
-/// The keys of a table: its fields and its sub-tables.
 std::vector<std::string> keys_of(const std::string& section) {
   std::vector<std::string> keys;
   for (const SceneField& field : scene_fields())
     if (parent_path(field.path) == section) keys.emplace_back(last_key(field.path));
-  for (const SceneSection& table : scene_sections())
-    if (!table.name.empty() && parent_path(table.name) == section && find_field(table.name) == nullptr)
-      keys.emplace_back(last_key(table.name));
   return keys;
 }
 
@@ -40,7 +36,7 @@ std::string path_of(const std::string& key, const std::string& section) {
 
 }  // namespace
 
-UnknownName explain_unknown(const std::string& key, const std::string& section) {
+UnknownName explain_unknown_key(const std::string& key, const std::string& section) {
   const std::string start =
       fmt::format("unknown name {} {} {}", quoted(key), section.empty() ? "at" : "in", table_name(section));
   if (const auto fields = fields_of_symbol(key, section); !fields.empty())
@@ -54,6 +50,20 @@ UnknownName explain_unknown(const std::string& key, const std::string& section) 
   if (const auto meant = near_match(key, keys))
     return {fmt::format("{}; did you mean {}?", start, quoted(*meant)), {path_of(*meant, section)}};
   return {fmt::format("{}; expected {}", start, alternatives(keys)), {}};
+}
+
+UnknownName explain_unknown_table(const std::string& name, bool list) {
+  const std::string start = fmt::format("unknown table {}", list ? "[[" + name + "]]" : '[' + name + ']');
+  std::vector<std::string> names;
+  std::vector<std::string> tables;
+  for (const SceneSection& section : scene_sections()) {
+    if (section.name.empty() || !parent_path(section.name).empty()) continue;
+    names.push_back(section.name);
+    tables.push_back(table_name(section.name));
+  }
+  if (const auto meant = near_match(name, names))
+    return {fmt::format("{}; did you mean {}?", start, table_name(*meant)), {*meant}};
+  return {fmt::format("{}; expected {}", start, alternatives(tables)), {}};
 }
 
 }  // namespace galet

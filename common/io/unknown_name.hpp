@@ -11,7 +11,10 @@ struct UnknownName {
   std::vector<std::string> meant;  ///< paths of the fields or tables that it may stand for
 };
 
-/// The message for an unknown key of a table: the near match, the table it belongs to, or what is possible.
-UnknownName explain_unknown(const std::string& key, const std::string& section);
+/// An unknown key of the table `section`: its near match, the table it belongs to, or what is possible there.
+UnknownName explain_unknown_key(const std::string& key, const std::string& section);
+
+/// An unknown [name] or, for lists, [[name]].
+UnknownName explain_unknown_table(const std::string& name, bool list);
 
 }  // namespace galet

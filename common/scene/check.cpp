@@ -88,10 +88,14 @@ void check_count(Report& report) {
   const auto listed = scene.grains.listed.size();
   if (drawn(scene.initial.kind) && listed == 0)
     report.rule(count > 0, "grains.count", "grains.count is needed: the number of grains", {"initial.kind", "grain"});
+  if (scene.initial.kind == InitialKind::packing)
+    report.rule(count == 0, "grains.count", "grains.count follows from the packing file: leave it out",
+                {"initial.kind"});
   if (scene.initial.kind == InitialKind::listed && count > 0 && listed > 0)
-    report.rule(static_cast<std::size_t>(count) == listed, "grains.count",
-                fmt::format("grains.count is {}, but there are {} [[grain]] entries: leave it out", count, listed),
-                {"initial.kind", "grain"});
+    report.rule(
+        static_cast<std::size_t>(count) == listed, "grains.count",
+        fmt::format("grains.count is {}, but the number of [[grain]] entries is {}: leave it out", count, listed),
+        {"initial.kind", "grain"});
 }
 
 void check_diameters(Report& report) {
@@ -132,18 +136,17 @@ void check_listed(Report& report) {
               {"grain"});
   report.rule(wanted || listed.empty(), "initial.kind",
               "[[grain]] entries need initial.kind = \"listed\": other kinds make their own grains", {"grain"});
-  const std::size_t turns = scene.dimension == 2 ? 1 : 3;
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::string path = fmt::format("grain[{}].", k);
     const ListedGrain& grain = listed[k];
     report.components(path + "position", grain.position.size(), false);
     report.components(path + "velocity", grain.velocity.size());
-    if (!grain.spin.empty() && grain.spin.size() != turns)
-      report.add(path + "spin",
-                 fmt::format("{}spin: {} in {}D, got {} components", path,
-                             turns == 1 ? "a number is needed" : "3 components are needed", scene.dimension,
-                             grain.spin.size()),
-                 {"dimension"});
+    const bool fits = grain.spin.empty() || grain.spin.size() == (scene.dimension == 2 ? 1 : 3);
+    report.rule(fits, path + "spin",
+                fmt::format("{}spin: {}, got {} component{}", path,
+                            scene.dimension == 2 ? "2D needs a number" : "3D needs 3 components", grain.spin.size(),
+                            grain.spin.size() == 1 ? "" : "s"),
+                {"dimension"});
     const bool turning = std::any_of(grain.spin.begin(), grain.spin.end(), [](double w) { return w != 0; });
     report.rule(!turning || scene.material.friction > 0, path + "spin",
                 path + "spin needs material.friction > 0: rotations of frictionless grains are not computed",
@@ -158,9 +161,10 @@ void check_grains(Report& report) {
   check_listed(report);
   report.rule(!grains.density || !grains.mass, "grains.mass", "grains.density and grains.mass exclude each other",
               {"grains.density"});
-  report.rule(report.scene.reduced_units || grains.density || grains.mass, "grains",
+  const bool massive = grains.density || grains.mass || report.scene.initial.kind == InitialKind::packing;
+  report.rule(report.scene.reduced_units || massive, "grains",
               "grains.density or grains.mass is needed with units = \"SI\"",
-              {"units", "grains.density", "grains.mass"});
+              {"units", "initial.kind", "grains.density", "grains.mass"});
 }
 
 // ---- material ----------------------------------------------------------------------------------------------
@@ -231,6 +235,13 @@ void check_initial(Report& report) {
               {"initial.kind", "initial.file"});
   report.rule(packing || initial.file.empty(), "initial.file", "initial.file needs initial.kind = \"packing\"",
               {"initial.kind"});
+  const bool readable = initial.file.ends_with(".csv") || initial.file.ends_with(".data");
+  report.rule(!packing || initial.file.empty() || readable, "initial.file",
+              fmt::format("initial.file: expected a name that ends in .csv (a table) or .data (LAMMPS), got {}",
+                          quoted(initial.file)),
+              {"initial.kind"});
+  report.rule(initial.kind != InitialKind::listed || initial.speed == 0, "initial.speed",
+              "initial.speed has no effect on listed grains: give each [[grain]] its velocity", {"initial.kind"});
   report.rule(compressed || !initial.friction, "initial.friction",
               "initial.friction needs initial.kind = \"compressed_gas\"", {"initial.kind"});
   report.rule(!compressed || scene.loading.pressure, "initial.kind",
@@ -248,8 +259,15 @@ void check_cell(Report& report) {
   report.components("cell.aspect", cell.aspect.size());
   report.rule(cell.size.empty() || cell.aspect.empty(), "cell.aspect", "cell.size and cell.aspect exclude each other",
               {"cell.size"});
-  report.rule(scene.initial.kind != InitialKind::listed || scene.grains.listed.empty() || !cell.size.empty(), "cell",
-              "cell.size is needed with [[grain]] entries", {"initial.kind", "grain", "cell.size"});
+  report.rule(drawn(scene.initial.kind) || cell.aspect.empty(), "cell.aspect",
+              "cell.aspect has no effect on listed grains and packings", {"initial.kind"});
+  bool any_periodic = false;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+    any_periodic = any_periodic || is_periodic(scene, a);
+  const bool listed = scene.initial.kind == InitialKind::listed && !scene.grains.listed.empty();
+  report.rule(!listed || !any_periodic || !cell.size.empty(), "cell",
+              "cell.size is needed with [[grain]] entries where a direction is periodic",
+              {"initial.kind", "grain", "cell.size", "cell.periodic"});
   if (!sound(scene.grains.diameter)) return;
   const double largest = largest_diameter(scene);
   for (std::size_t a = 0; a < std::min<std::size_t>(cell.size.size(), 3); ++a)
@@ -324,7 +342,7 @@ void check_drives(Report& report) {
   const bool wanted = scene.loading.kind == LoadingKind::drives;
   report.rule(!wanted || !drives.empty(), "loading.kind", "loading.kind = \"drives\" needs [[drive]] entries",
               {"drive"});
-  report.rule(wanted || drives.empty(), "loading.kind", "[[drive]] entries need loading.kind = \"drives\"", {"drive"});
+  report.rule(wanted || drives.empty(), "drive", "[[drive]] entries need loading.kind = \"drives\"", {"loading.kind"});
   const Paths names = component_names(scene.dimension);
   std::set<std::string> seen;
   bool isotropic = false;

@@ -1,0 +1,171 @@
+// galet run: one scene with one engine, from its start or from a checkpoint.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "common/core/error.hpp"
+#include "common/core/parallel.hpp"
+#include "common/io/checkpoint.hpp"
+#include "src/commands/arguments.hpp"
+#include "src/commands/commands.hpp"
+#include "src/commands/interrupt.hpp"
+#include "src/commands/progress_line.hpp"
+#include "src/dimension.hpp"
+#include "src/engines.hpp"
+#include "src/restart.hpp"
+#include "src/run_files.hpp"
+#include "src/text_table.hpp"
+
+namespace galet::cli {
+
+namespace {
+
+struct RunArguments {
+  SceneArguments scene;
+  std::string engine;  ///< empty: the scene's
+  std::string out;
+  std::string resume;
+  int threads = 1;
+  double checkpoint_every = 300;
+  bool json = false;
+};
+
+/// What is to be run, and what it is called.
+struct Job {
+  Scene scene;
+  EngineKind engine = EngineKind::md;
+  std::vector<Override> changes;
+  std::optional<Archive> archive;  ///< to go on from
+  std::string title;
+  std::string directory;
+};
+
+/// The checkpoint must belong to the scene and engine that are named beside it, if any are.
+void check_against_checkpoint(const RunArguments& arguments, const Job& job) {
+  if (!arguments.engine.empty() && engine_kind(arguments.engine) != job.engine)
+    throw InputError(fmt::format("--engine {}: the checkpoint was written by {}, and only it can go on from there",
+                                 arguments.engine, engine_name(job.engine)));
+  if (!arguments.scene.path.empty() && read_scene(arguments.scene.path).source != job.scene.source)
+    throw InputError(fmt::format("{} is not the scene in the checkpoint {}: leave it out to go on with that one",
+                                 arguments.scene.path, arguments.resume));
+}
+
+Job resumed_job(const RunArguments& arguments) {
+  Job job;
+  job.archive = read_checkpoint(arguments.resume);
+  job.changes = overrides(arguments.scene);
+  job.scene = stored_scene(*job.archive, job.changes);
+  job.engine = stored_engine(*job.archive);
+  check_against_checkpoint(arguments, job);
+  const std::string beside = std::filesystem::path(arguments.resume).parent_path().string();
+  const std::string out = arguments.out.empty() ? (beside.empty() ? "." : beside) : arguments.out;
+  job.directory = output_directory(out, arguments.resume);
+  job.title = job.scene.title.empty() ? arguments.resume : job.scene.title;
+  return job;
+}
+
+Job new_job(const RunArguments& arguments) {
+  if (arguments.scene.path.empty()) throw InputError("name a scene file, or a checkpoint with --resume");
+  Job job;
+  job.changes = overrides(arguments.scene);
+  job.scene = load(arguments.scene);
+  job.engine = arguments.engine.empty() ? job.scene.engine : engine_kind(arguments.engine);
+  job.directory = output_directory(arguments.out, arguments.scene.path);
+  job.title = job.scene.title.empty() ? arguments.scene.path : job.scene.title;
+  return job;
+}
+
+RunControl control_of(const RunArguments& arguments, const std::string& checkpoint_path, ProgressLine& line) {
+  RunControl control;
+  control.stop = interrupted;
+  control.checkpoint_every = arguments.checkpoint_every;
+  control.checkpoint = [checkpoint_path](const Archive& archive) { write_checkpoint(checkpoint_path, archive); };
+  if (line.shown())
+    control.progress = [&line](const Progress& at) {
+      const double percent = 100.0 * static_cast<double>(at.step) / static_cast<double>(at.steps);
+      line.show(fmt::format("{} {:.1f} %, {:.0f} steps/s, {} left", at.stage, percent, at.steps_per_second,
+                            duration_text(at.seconds_left)));
+    };
+  return control;
+}
+
+/// Says on stderr how the run ended, when it didn't end well, and gives the exit code.
+int say_ending(const RunResult& result, const std::string& checkpoint_path, const std::string& last_good_path) {
+  for (const std::string& note : result.notes) fmt::print(stderr, "note: {}\n", note);
+  if (result.ending == Ending::interrupted) {
+    fmt::print(stderr, "galet: stopped after step {}; go on with: galet run --resume {}\n", result.steps,
+               checkpoint_path);
+    return 1;
+  }
+  if (result.ending == Ending::failed) {
+    fmt::print(stderr, "galet: {}\n", result.failure);
+    if (result.last_good) fmt::print(stderr, "galet: the last sound state is in {}\n", last_good_path);
+    return 1;
+  }
+  return 0;
+}
+
+template <int D>
+int run_job(const RunArguments& arguments, const Job& job) {
+  const std::string engine = engine_name(job.engine);
+  const std::string checkpoint_path = path_in(job.directory, engine + "_checkpoint.h5");
+  const std::string last_good_path = path_in(job.directory, engine + "_last_good.h5");
+  Simulation<D> simulation = job.archive ? Simulation<D>::resume(job.scene, *job.archive, job.changes)
+                                         : Simulation<D>(job.scene, job.engine, job.changes);
+  if (!arguments.json)
+    fmt::print("{}\n{} engine, {}, {} grains\n", job.title, engine, to_string(simulation.derived().layout),
+               simulation.derived().grains.count);
+  std::fflush(stdout);
+
+  catch_interrupts();
+  ProgressLine line;
+  const RunResult result = simulation.run(control_of(arguments, checkpoint_path, line));
+  line.clear();
+
+  std::vector<std::string> files = write_run(result, simulation, job.title, job.directory);
+  if (result.ending != Ending::failed) {
+    write_checkpoint(checkpoint_path, simulation.checkpoint());
+    files.push_back(checkpoint_path);
+  } else if (result.last_good) {
+    write_checkpoint(last_good_path, *result.last_good);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", to_json(result, job.title));
+  } else {
+    fmt::print("{}", summary(result));
+    for (const std::string& file : files) fmt::print("wrote {}\n", file);
+  }
+  std::fflush(stdout);
+  return say_ending(result, checkpoint_path, last_good_path);
+}
+
+int run_scene(const RunArguments& arguments) {
+  set_thread_count(arguments.threads);
+  const Job job = arguments.resume.empty() ? new_job(arguments) : resumed_job(arguments);
+  return with_dimension(job.scene.dimension, [&](auto dimension) { return run_job<dimension>(arguments, job); });
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("run", "Run a scene with one engine");
+  auto arguments = std::make_shared<RunArguments>();
+  add_scene_arguments(*command, arguments->scene)->required(false);
+  command->add_option("--engine", arguments->engine, "md (soft spheres) or cd (rigid grains); default: the scene's")
+      ->check(CLI::IsMember({"md", "cd"}));
+  command->add_option("--out", arguments->out, "folder for results (default: out/<scene name>)");
+  command->add_option("--threads", arguments->threads, "threads of the run; results don't depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--resume", arguments->resume,
+                      "go on from a checkpoint; SCENE may be left out, and --set may only change run.*");
+  command->add_option("--checkpoint-every", arguments->checkpoint_every, "seconds between checkpoints")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->callback([&action, arguments] { action = [arguments] { return run_scene(*arguments); }; });
+}
+
+}  // namespace galet::cli

@@ -1,0 +1,117 @@
+#include "src/run_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "src/engines.hpp"
+#include "src/text_table.hpp"
+
+namespace galet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // keeps the order in which keys are written; NaN becomes null
+
+bool averaged(int k, int dimension) {
+  const auto observable = static_cast<Observable>(k);
+  return observable != Observable::time && observable != Observable::strain && shown(observable, dimension);
+}
+
+Json averages_json(const RunResult& result) {
+  Json json{{"from_time", result.averages.from}, {"rows", result.averages.rows}};
+  for (int k = 0; k < observable_count; ++k)
+    if (averaged(k, result.layout.dim))
+      json[std::string(observable_table[k].name)] = {{"value", result.averages.values[k].value},
+                                                     {"error", result.averages.values[k].error}};
+  return json;
+}
+
+Json last_json(const RunResult& result) {
+  Json json;
+  for (int k = 0; k < observable_count; ++k)
+    if (shown(static_cast<Observable>(k), result.layout.dim))
+      json[std::string(observable_table[k].name)] = result.last.values[k];
+  return json;
+}
+
+Json solver_json(const SolverSummary& solver) {
+  if (solver.steps == 0) return nullptr;
+  return {{"steps", solver.steps},
+          {"sweeps", solver.sweeps},
+          {"missed", solver.missed},
+          {"worst_residual", solver.worst_residual},
+          {"mean_residual", solver.residual_sum / static_cast<double>(solver.steps)},
+          {"corrections", solver.corrections}};
+}
+
+Json compression_json(const std::optional<CompressionReport>& report) {
+  if (!report) return nullptr;
+  return {{"time", report->time},
+          {"steps", report->steps},
+          {"equilibrium", report->equilibrium},
+          {"kinetic_per_grain", report->kinetic_per_grain},
+          {"pressure", report->pressure},
+          {"Phi", report->solid_fraction},
+          {"z", report->z},
+          {"seconds", report->cpu_seconds}};
+}
+
+}  // namespace
+
+std::string to_string(Ending ending) {
+  switch (ending) {
+    case Ending::finished: return "finished";
+    case Ending::equilibrium: return "equilibrium";
+    case Ending::interrupted: return "interrupted";
+    case Ending::failed: return "failed";
+  }
+  return "";
+}
+
+std::string to_json(const RunResult& result, const std::string& scene) {
+  Json json{{"scene", scene},
+            {"engine", engine_name(result.engine)},
+            {"layout", to_string(result.layout)},
+            {"ending", to_string(result.ending)},
+            {"dt", result.dt},
+            {"steps", result.steps},
+            {"total_steps", result.total_steps},
+            {"time", result.time},
+            {"strain", result.strain}};
+  if (!result.failure.empty()) json["failure"] = result.failure;
+  json["averages"] = averages_json(result);
+  json["last"] = last_json(result);
+  json["compression"] = compression_json(result.compression);
+  json["solver"] = solver_json(result.solver);
+  json["seconds"] = result.cpu_seconds;
+  json["wall_seconds"] = result.wall_seconds;
+  for (std::size_t k = 0; k < stage_names.size(); ++k)
+    json["stage_seconds"][std::string(stage_names[k])] = result.stage_seconds[k];
+  json["notes"] = result.notes;
+  json["state_hash"] = fmt::format("{:016x}", result.state_hash);
+  return json.dump(2);
+}
+
+std::string summary(const RunResult& result) {
+  std::string text = fmt::format("{}: {} of {} steps, dt = {:g}, time {:g}, strain {:g}\n", to_string(result.ending),
+                                 result.steps, result.total_steps, result.dt, result.time, result.strain);
+  if (result.averages.rows > 0) {
+    TextTable table({"quantity", fmt::format("mean from time {:g} on", result.averages.from), "last"});
+    for (int k = 0; k < observable_count; ++k) {
+      if (!averaged(k, result.layout.dim) || std::isnan(result.averages.values[k].value)) continue;
+      const bool tiny = std::abs(result.averages.values[k].value) < 1e-3;
+      const Estimate& mean = result.averages.values[k];
+      table.add({std::string(observable_table[k].name), tiny ? short_number(mean.value, 3) : with_error(mean),
+                 short_number(result.last.values[k])});
+    }
+    text += table.text("  ");
+  }
+  const double steps_per_second = result.wall_seconds > 0 ? static_cast<double>(result.steps) / result.wall_seconds : 0;
+  text += fmt::format("cost: {} of steps ({:.0f} steps/s)\n", duration_text(result.wall_seconds), steps_per_second);
+  if (result.ending != Ending::failed) text += fmt::format("state hash: {:016x}\n", result.state_hash);
+  return text;
+}
+
+}  // namespace galet

@@ -1,0 +1,84 @@
+// The same bits for any number of threads, and however the steps are asked for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/core/parallel.hpp"
+#include "tests/determinism/sheared.hpp"
+
+namespace galet::test {
+namespace {
+
+template <int D>
+void check_threads(EngineKind kind, double pressure) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + " pressure " + std::to_string(pressure));
+  const ThreadCount restore_at_end;
+  set_thread_count(1);
+  const auto one = large_run<D>(kind, pressure);
+  one->advance(large_steps(kind));
+  for (int threads : {2, 3}) {
+    set_thread_count(threads);
+    ASSERT_EQ(thread_count(), threads);
+    const auto many = large_run<D>(kind, pressure);
+    many->advance(large_steps(kind));
+    EXPECT_EQ(hash_of<D>(*many), hash_of<D>(*one)) << threads << " threads";
+  }
+  // A run in which nothing touched would agree whatever the threads do.
+  const Snapshot<D> state = one->snapshot();
+  EXPECT_GE(state.grains(), 3000);
+  EXPECT_GT(state.contacts->size(), static_cast<std::size_t>(state.grains() / 2));
+}
+
+TEST(determinism, ThreadsMd2D) {
+  for (double pressure : {0.0, 1.0}) check_threads<2>(EngineKind::md, pressure);
+}
+TEST(determinism, ThreadsMd3D) { check_threads<3>(EngineKind::md, 1); }
+TEST(determinism, ThreadsCd2D) {
+  for (double pressure : {0.0, 1.0}) check_threads<2>(EngineKind::cd, pressure);
+}
+TEST(determinism, ThreadsCd3D) { check_threads<3>(EngineKind::cd, 1); }
+
+TEST(determinism, ThreadsAreReallyUsed) {
+  // The guard of the tests above: work of this size is handed to two threads.
+  const ThreadCount restore_at_end;
+  set_thread_count(2);
+  std::size_t first_end = 0, second_begin = 0;  // each written by one thread only
+  parallel_ranges(3000, [&](std::size_t begin, std::size_t end) {
+    if (begin == 0)
+      first_end = end;
+    else
+      second_begin = begin;
+  });
+  EXPECT_GT(first_end, 0u);
+  EXPECT_EQ(first_end, second_begin);
+  EXPECT_LT(first_end, 3000u);
+}
+
+template <int D>
+void check_slicing(EngineKind kind) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D));
+  const auto whole = small_run<D>(kind);
+  whole->advance(120);
+  const auto sliced = small_run<D>(kind);
+  for (long steps : {1, 1, 7, 31, 80}) {
+    sliced->advance(steps);
+    // Looking changes nothing.
+    EXPECT_GT(sliced->snapshot().grains(), 0);
+    EXPECT_GT(sliced->energy().total(), 0);
+    (void)hash_of<D>(*sliced);
+  }
+  EXPECT_EQ(hash_of<D>(*sliced), hash_of<D>(*whole));
+  EXPECT_EQ(sliced->steps(), 120);
+  whole->advance(1);
+  EXPECT_NE(hash_of<D>(*sliced), hash_of<D>(*whole));  // the hash sees a step
+}
+
+TEST(determinism, StepsMayBeAskedForInAnySlices) {
+  for (EngineKind kind : both_engines) {
+    check_slicing<2>(kind);
+    check_slicing<3>(kind);
+  }
+}
+
+}  // namespace
+}  // namespace galet::test

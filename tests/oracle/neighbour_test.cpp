@@ -1,0 +1,322 @@
+// The Verlet list against a search over all pairs and images.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "common/core/error.hpp"
+#include "common/neighbour/verlet_list.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace galet::test {
+namespace {
+
+template <int D>
+using Pair = std::tuple<int, int, Image<D>>;
+
+/// i < j always; for i == j the first non-zero lattice coordinate is positive.
+template <int D>
+bool canonical(int i, int j, const Image<D>& image) {
+  if (i != j) return i < j;
+  for (int coordinate : image)
+    if (coordinate != 0) return coordinate > 0;
+  return false;
+}
+
+/// Calls body(image) for every lattice vector with coordinates within +-reach in periodic directions.
+template <int D, class Body>
+void for_images(const Cell<D>& cell, int reach, const Body& body) {
+  Image<D> image;
+  image.fill(0);
+  const std::function<void(int)> choose = [&](int axis) {
+    if (axis == D) return body(image);
+    const int bound = cell.periodic[axis] ? reach : 0;
+    for (image[axis] = -bound; image[axis] <= bound; ++image[axis]) choose(axis + 1);
+    image[axis] = 0;
+  };
+  choose(0);
+}
+
+/// All pairs, planes included, whose gap is below `range`.
+template <int D>
+std::set<Pair<D>> all_pairs(const Sample<D>& sample, double range) {
+  std::set<Pair<D>> found;
+  // Enough images: a pair reaches 2 R_max + range, a wrapped cell's vectors are at least its face distances apart.
+  const double largest = *std::ranges::max_element(sample.radius);
+  const double reach = 2 * largest + range;
+  const int images = 1 + static_cast<int>(std::ceil(reach / face_distances<D>(sample.cell.box).minCoeff()));
+  for (int i = 0; i < sample.count(); ++i) {
+    for (int j = 0; j < sample.count(); ++j)
+      for_images<D>(sample.cell, images, [&](const Image<D>& image) {
+        if (!canonical<D>(i, j, image)) return;
+        const Vec<D> branch = sample.position[j] + lattice<D>(sample.cell.box, image) - sample.position[i];
+        if (branch.norm() - sample.radius[i] - sample.radius[j] < range) found.insert({i, j, image});
+      });
+    for (std::size_t p = 0; p < sample.planes.size(); ++p) {
+      const double height = (sample.position[i] - sample.planes[p].point).dot(sample.planes[p].normal);
+      Image<D> zero;
+      zero.fill(0);
+      if (height - sample.radius[i] < range) found.insert({i, sample.count() + static_cast<int>(p), zero});
+    }
+  }
+  return found;
+}
+
+template <int D>
+std::set<Pair<D>> listed(const VerletList<D>& list) {
+  std::set<Pair<D>> pairs;
+  for (std::size_t row = 0; row < list.size(); ++row)
+    pairs.insert({list.pairs().i[row], list.pairs().j[row], list.pairs().image[row]});
+  EXPECT_EQ(pairs.size(), list.size()) << "a pair is listed twice";
+  return pairs;
+}
+
+/// Pairs of the brute search at gap below range + skin are what a fresh list holds. A gap within rounding of the
+/// limit may go either way, so limits slightly inside and outside are compared.
+template <int D>
+void expect_fresh(const VerletList<D>& list, const Sample<D>& sample, double range) {
+  const std::set<Pair<D>> rows = listed<D>(list);
+  const double limit = range + list.skin();
+  for (const Pair<D>& pair : all_pairs<D>(sample, limit * (1 - 1e-12))) EXPECT_TRUE(rows.contains(pair));
+  const std::set<Pair<D>> outer = all_pairs<D>(sample, limit * (1 + 1e-12));
+  for (const Pair<D>& pair : rows)
+    EXPECT_TRUE(outer.contains(pair)) << std::get<0>(pair) << " " << std::get<1>(pair);
+}
+
+/// The compressed rows point where they say.
+template <int D>
+void expect_rows(const VerletList<D>& list, int grains) {
+  const auto& pairs = list.pairs();
+  ASSERT_EQ(list.first().size(), static_cast<std::size_t>(grains) + 1);
+  ASSERT_EQ(list.second().size(), static_cast<std::size_t>(grains) + 1);
+  EXPECT_EQ(list.first()[grains], static_cast<int>(list.size()));
+  for (int i = 0; i < grains; ++i) {
+    for (int row = list.first()[i]; row < list.first()[i + 1]; ++row) EXPECT_EQ(pairs.i[row], i);
+    for (int k = list.second()[i]; k < list.second()[i + 1]; ++k) {
+      EXPECT_EQ(pairs.j[list.rows_of_second()[k]], i);
+      if (k > list.second()[i]) {
+        EXPECT_LT(list.rows_of_second()[k - 1], list.rows_of_second()[k]);
+      }
+    }
+  }
+  long with_grain = std::ranges::count_if(pairs.j, [&](int j) { return j < grains; });
+  EXPECT_EQ(list.second()[grains], with_grain);
+  for (std::size_t row = 1; row < pairs.size(); ++row)
+    EXPECT_LT(std::tie(pairs.i[row - 1], pairs.j[row - 1], pairs.image[row - 1]),
+              std::tie(pairs.i[row], pairs.j[row], pairs.image[row]));
+}
+
+/// Points at random, also outside of the cell, for grains of diameter 0.4 (1 +- spread) that overlap by 10 % at most.
+template <int D>
+Sample<D> random_sample(int count, const Mat<D>& box, double spread, std::uint64_t seed) {
+  Sample<D> sample;
+  sample.cell.box = box;
+  sample.cell.periodic.fill(true);
+  sample.resize(count);
+  vary_sizes<D>(sample, spread, seed);
+  for (double& radius : sample.radius) radius *= 0.4;
+  int placed = 0;
+  for (int trial = 0; placed < count; ++trial) {
+    RandomStream random(seed, 77777 + trial);
+    Vec<D> fraction;
+    for (int a = 0; a < D; ++a) fraction[a] = random.uniform(-1, 2);
+    sample.position[placed] = box * fraction;
+    bool free = true;
+    for (int other = 0; other < placed && free; ++other) {
+      const double reach = 0.9 * (sample.radius[placed] + sample.radius[other]);
+      // Within +-3 of the nearest lattice point by rounding: enough for tilts up to 2.5.
+      Vec<D> apart = sample.position[placed] - sample.position[other];
+      const Vec<D> nearest = (box.inverse() * apart).array().round();
+      apart -= box * nearest;
+      for_images<D>(sample.cell, 3, [&](const Image<D>& image) {
+        if ((apart + lattice<D>(box, image)).norm() < reach) free = false;
+      });
+    }
+    placed += free;
+  }
+  return sample;
+}
+
+template <int D>
+Mat<D> tilted_box(double edge, double tilt) {
+  Mat<D> box = edge * Mat<D>::Identity();
+  box(0, 1) = tilt * edge;
+  if constexpr (D == 3) box(1, 2) = -0.3 * tilt * edge;
+  return box;
+}
+
+template <int D>
+void check_fresh_lists() {
+  for (double edge : {0.5, 1.1, 2.0, 4.0})  // grains of 0.4: the smallest cell is hardly wider than one
+    for (double tilt : {0.0, 0.37, -0.49, 2.2})
+      for (double spread : {0.0, 0.5}) {
+        SCOPED_TRACE("edge " + std::to_string(edge) + " tilt " + std::to_string(tilt));
+        const double room = std::pow(edge, D) / grain_volume<D>(0.4);
+        const int count = std::clamp(static_cast<int>(0.2 * room), 1, 60);
+        // A single grain in a narrow cell must fit: no overlap with its own image.
+        Sample<D> sample = random_sample<D>(count, tilted_box<D>(edge, tilt), spread, 3);
+        VerletList<D> list;
+        const double range = 0.05, skin = 0.3;
+        list.configure(range, skin);
+        list.build(sample.position, sample.radius, sample.cell, sample.planes);
+        expect_fresh<D>(list, sample, range);
+        expect_rows<D>(list, sample.count());
+      }
+}
+
+TEST(VerletList, HoldsExactlyThePairsOfABruteSearch2D) { check_fresh_lists<2>(); }
+TEST(VerletList, HoldsExactlyThePairsOfABruteSearch3D) { check_fresh_lists<3>(); }
+
+template <int D>
+void check_open_cell() {
+  Sample<D> sample = random_sample<D>(40, tilted_box<D>(3, 0.0), 0.5, 5);
+  for (bool periodic_x : {false, true}) {
+    sample.cell.periodic.fill(false);
+    sample.cell.periodic[0] = periodic_x;
+    sample.planes = {{Vec<D>::Constant(-3.3), up<D>(), Vec<D>::Zero()},
+                     {Vec<D>::Constant(6.4), -up<D>(), Vec<D>::Zero()}};
+    VerletList<D> list;
+    list.configure(0, 0.4);
+    list.build(sample.position, sample.radius, sample.cell, sample.planes);
+    expect_fresh<D>(list, sample, 0);
+    expect_rows<D>(list, sample.count());
+    const std::set<Pair<D>> pairs = listed<D>(list);
+    EXPECT_TRUE(std::ranges::any_of(pairs, [&](const Pair<D>& pair) { return std::get<1>(pair) >= 40; }));
+  }
+}
+
+TEST(VerletList, WorksInOpenDirectionsAndWithPlanes) {
+  check_open_cell<2>();
+  check_open_cell<3>();
+}
+
+/// Moves grains and cell in small random steps. A list that says it is valid must hold every pair within range.
+template <int D>
+void check_expiry(double strain_step, double jump) {
+  SCOPED_TRACE("strain " + std::to_string(strain_step) + " jump " + std::to_string(jump));
+  Sample<D> sample = random_sample<D>(D == 2 ? 30 : 50, tilted_box<D>(D == 2 ? 2.4 : 2.0, 0.2), 0.4, 9);
+  const double range = 0.02;
+  VerletList<D> list;
+  list.configure(range, 0.15);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  Mat<D> step = Mat<D>::Identity();
+  step(0, 1) = strain_step;
+  step(1, 1) = 1 - 0.3 * strain_step;
+  int valid = 0;
+  for (int k = 0; k < 200; ++k) {
+    sample.cell.box = step * sample.cell.box;
+    for (int i = 0; i < sample.count(); ++i) {
+      RandomStream random(13 + k, i);
+      sample.position[i] = step * sample.position[i];
+      for (int a = 0; a < D; ++a) sample.position[i][a] += jump * random.normal();
+    }
+    if (list.expired(sample.position, sample.cell, sample.planes)) {
+      // A fresh list of these overlapping random walkers would be refused: start over.
+      sample = random_sample<D>(sample.count(), sample.cell.box, 0.4, 100 + k);
+      list.build(sample.position, sample.radius, sample.cell, sample.planes);
+      continue;
+    }
+    ++valid;
+    const std::set<Pair<D>> rows = listed<D>(list);
+    for (const Pair<D>& pair : all_pairs<D>(sample, range)) {
+      EXPECT_TRUE(rows.contains(pair)) << std::get<0>(pair) << " " << std::get<1>(pair) << " step " << k;
+    }
+  }
+  EXPECT_GT(valid, 100);  // nor does it expire for nothing: the skin is worth many of these steps
+  EXPECT_GT(list.builds(), 1);
+}
+
+TEST(VerletList, ExpiresBeforeItMissesAPair) {
+  for (double strain_step : {0.0, 2e-3, -5e-3})
+    for (double jump : {0.0, 3e-3}) {
+      if (strain_step == 0 && jump == 0) continue;
+      check_expiry<2>(strain_step, jump);
+      check_expiry<3>(strain_step, jump);
+    }
+}
+
+/// A homogeneous rotation-free flow of the whole cell leaves the list valid for a while; a reserve shortens it.
+TEST(VerletList, ReserveAsksForTheFuture) {
+  Sample<2> sample = random_sample<2>(20, tilted_box<2>(2.4, 0), 0.2, 15);
+  VerletList<2> list;
+  list.configure(0, 0.1);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  EXPECT_FALSE(list.expired(sample.position, sample.cell, sample.planes));
+  EXPECT_FALSE(list.expired(sample.position, sample.cell, sample.planes, 0.0999));
+  EXPECT_TRUE(list.expired(sample.position, sample.cell, sample.planes, 0.1001));
+  // One grain displaced by s spends 2 s of the skin (another might have done the same the other way).
+  sample.position[7] += Vec<2>(0.03, 0);
+  EXPECT_FALSE(list.expired(sample.position, sample.cell, sample.planes, 0.0399));
+  EXPECT_TRUE(list.expired(sample.position, sample.cell, sample.planes, 0.0401));
+}
+
+/// Pairs that stay keep their rows: origin() leads from a pair to the same physical pair of the list before, whatever
+/// the wrapping and the remap of the tilted cell did to the images.
+template <int D>
+void check_origin() {
+  Sample<D> sample = random_sample<D>(D == 2 ? 12 : 20, tilted_box<D>(1.3, 0.45), 0.3, 17);
+  VerletList<D> list;
+  list.configure(0, 0.5);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  const PairColumns<D> before = list.pairs();
+  std::vector<Vec<D>> branch_before(before.size());
+  for (std::size_t row = 0; row < before.size(); ++row)
+    branch_before[row] = sample.position[before.j[row]] + lattice<D>(sample.cell.box, before.image[row]) -
+                         sample.position[before.i[row]];
+  // A strain of 0.2 remaps the cell (tilt 0.65 -> -0.35); a common displacement wraps many grains. Rows are compared
+  // by their branch vectors, which only the strain changes.
+  Mat<D> strain = Mat<D>::Identity();
+  strain(0, 1) = 0.2;
+  sample.cell.box = strain * sample.cell.box;
+  for (Vec<D>& x : sample.position) x = strain * x + sample.cell.box * Vec<D>::Constant(0.61);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  EXPECT_LT(std::abs(sample.cell.box(0, 1)), 0.5 * 1.3 + 1e-12);
+  int kept = 0;
+  for (std::size_t row = 0; row < list.size(); ++row) {
+    const int i = list.pairs().i[row], j = list.pairs().j[row];
+    const Vec<D> branch =
+        sample.position[j] + lattice<D>(sample.cell.box, list.pairs().image[row]) - sample.position[i];
+    // The row of the old list with the same branch vector, up to the strain and the direction of a self-image pair.
+    int expected = -1;
+    bool reversed = false;
+    for (std::size_t old = 0; old < before.size(); ++old) {
+      if (before.i[old] != i || before.j[old] != j) continue;
+      const bool same = (strain * branch_before[old] - branch).norm() < 1e-9;
+      const bool opposite = i == j && (strain * branch_before[old] + branch).norm() < 1e-9;
+      if (same || opposite) expected = static_cast<int>(old), reversed = opposite;
+    }
+    EXPECT_EQ(list.origin()[row], expected) << "row " << row;
+    if (expected >= 0) {
+      EXPECT_EQ(list.flipped(row), reversed) << "row " << row;
+    }
+    kept += expected >= 0;
+  }
+  EXPECT_GT(kept, static_cast<int>(before.size()) / 2);
+}
+
+TEST(VerletList, CarriesRowsThroughWrappingAndRemap) {
+  check_origin<2>();
+  check_origin<3>();
+}
+
+TEST(VerletList, RefusesUnsoundStates) {
+  const auto build = [](Sample<2> sample) {
+    VerletList<2> list;
+    list.configure(0, 0.1);
+    list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  };
+  const Sample<2> good = column_sample<2>(3);
+  EXPECT_NO_THROW(build(good));
+  Sample<2> bad = good;
+  bad.position[1].x() = NAN;
+  EXPECT_THROW(build(bad), RunError);
+  bad = good;
+  bad.position[1] = good.position[0] + Vec<2>(0, 0.7);  // overlap 0.3 > 0.25
+  EXPECT_THROW(build(bad), RunError);
+  bad = good;
+  bad.position[0].y() = good.planes[0].point.y() - 0.6;
+  EXPECT_THROW(build(bad), RunError);
+}
+
+}  // namespace
+}  // namespace galet::test
