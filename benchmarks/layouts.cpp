@@ -50,18 +50,21 @@ void step(benchmark::State& state, EngineKind engine_kind, Kind kind) {
     state.counters["sweeps_per_step"] = static_cast<double>(engine->solver_summary().sweeps - sweeps_before) / steps;
 }
 
-BENCHMARK_CAPTURE(step<2>, md_2D_frictionless, EngineKind::md, Kind::frictionless);
-BENCHMARK_CAPTURE(step<2>, md_2D_friction_layout_mu_0, EngineKind::md, Kind::friction_layout_without_friction);
-BENCHMARK_CAPTURE(step<2>, md_2D_friction, EngineKind::md, Kind::friction);
-BENCHMARK_CAPTURE(step<3>, md_3D_frictionless, EngineKind::md, Kind::frictionless);
-BENCHMARK_CAPTURE(step<3>, md_3D_friction_layout_mu_0, EngineKind::md, Kind::friction_layout_without_friction);
-BENCHMARK_CAPTURE(step<3>, md_3D_friction, EngineKind::md, Kind::friction);
-BENCHMARK_CAPTURE(step<2>, cd_2D_frictionless, EngineKind::cd, Kind::frictionless);
-BENCHMARK_CAPTURE(step<2>, cd_2D_friction_layout_mu_0, EngineKind::cd, Kind::friction_layout_without_friction);
-BENCHMARK_CAPTURE(step<2>, cd_2D_friction, EngineKind::cd, Kind::friction);
-BENCHMARK_CAPTURE(step<3>, cd_3D_frictionless, EngineKind::cd, Kind::frictionless);
-BENCHMARK_CAPTURE(step<3>, cd_3D_friction_layout_mu_0, EngineKind::cd, Kind::friction_layout_without_friction);
-BENCHMARK_CAPTURE(step<3>, cd_3D_friction, EngineKind::cd, Kind::friction);
+void disks(benchmark::State& state, EngineKind engine, Kind kind) { step<2>(state, engine, kind); }
+void spheres(benchmark::State& state, EngineKind engine, Kind kind) { step<3>(state, engine, kind); }
+
+BENCHMARK_CAPTURE(disks, md_frictionless, EngineKind::md, Kind::frictionless);
+BENCHMARK_CAPTURE(disks, md_friction_layout_mu_0, EngineKind::md, Kind::friction_layout_without_friction);
+BENCHMARK_CAPTURE(disks, md_friction, EngineKind::md, Kind::friction);
+BENCHMARK_CAPTURE(spheres, md_frictionless, EngineKind::md, Kind::frictionless);
+BENCHMARK_CAPTURE(spheres, md_friction_layout_mu_0, EngineKind::md, Kind::friction_layout_without_friction);
+BENCHMARK_CAPTURE(spheres, md_friction, EngineKind::md, Kind::friction);
+BENCHMARK_CAPTURE(disks, cd_frictionless, EngineKind::cd, Kind::frictionless);
+BENCHMARK_CAPTURE(disks, cd_friction_layout_mu_0, EngineKind::cd, Kind::friction_layout_without_friction);
+BENCHMARK_CAPTURE(disks, cd_friction, EngineKind::cd, Kind::friction);
+BENCHMARK_CAPTURE(spheres, cd_frictionless, EngineKind::cd, Kind::frictionless);
+BENCHMARK_CAPTURE(spheres, cd_friction_layout_mu_0, EngineKind::cd, Kind::friction_layout_without_friction);
+BENCHMARK_CAPTURE(spheres, cd_friction, EngineKind::cd, Kind::friction);
 
 }  // namespace
 }  // namespace galet

@@ -2,9 +2,8 @@
 // which run side by side on threads of their own don't count each other's work.
 #pragma once
 
-#include <ctime>
-
 #include <chrono>
+#include <ctime>
 
 namespace galet {
 

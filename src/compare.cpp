@@ -1,7 +1,5 @@
 #include "src/compare.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <mutex>
 #include <numeric>
 #include <thread>
+
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "common/io/svg.hpp"
@@ -134,9 +134,7 @@ void draw(CompareRow& row, Simulation<D>& simulation) {
   row.profile = velocity_profile(snapshot, profile_layers);
   if constexpr (D == 2) {
     SvgOptions options;
-    options.title = fmt::format("{}: {}", simulation.scene().title, row.plan.engine == EngineKind::md
-                                                                        ? "soft grains (md)"
-                                                                        : "rigid grains (cd)");
+    options.title = simulation.scene().title;
     row.picture = force_chain_svg(snapshot, options);
   }
 }

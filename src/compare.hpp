@@ -60,10 +60,10 @@ struct StateLimit {
 };
 
 struct Comparison {
-  std::vector<CompareRow> rows;   ///< in the order of the plan; without those that were interrupted
+  std::vector<CompareRow> rows;    ///< in the order of the plan; without those that were interrupted
   std::vector<StateLimit> limits;  ///< of the states that have usable rows
   std::vector<std::string> notes;
-  bool shear = false;       ///< costs are per unit strain
+  bool shear = false;  ///< costs are per unit strain
   bool shortened = false;
   bool interrupted = false;
   int jobs = 1;

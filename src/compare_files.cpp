@@ -1,8 +1,8 @@
 // The files that a comparison leaves.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "common/io/files.hpp"
 #include "src/compare_report.hpp"

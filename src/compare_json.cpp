@@ -15,8 +15,11 @@ Json of(const Estimate& estimate) { return {{"value", estimate.value}, {"error",
 
 Json of(const std::optional<EngineLimit>& limit) {
   if (!limit) return nullptr;
-  return {{"value", limit->value.value},      {"error", limit->value.error}, {"slope", of(limit->slope)},
-          {"systematic", limit->systematic}, {"runs", limit->runs}};
+  return {{"value", limit->value.value},
+          {"error", limit->value.error},
+          {"slope", of(limit->slope)},
+          {"systematic", limit->systematic},
+          {"runs", limit->runs}};
 }
 
 Json of(const RigidLimit& limit) {
@@ -30,9 +33,8 @@ Json of(const CompareRow& row, const Comparison& comparison) {
   const auto off = deviation_of(row, comparison);
   Json json{{"engine", engine_name(row.plan.engine)},
             {"I", maybe(row.plan.inertial_number)},
-            {"kappa", row.plan.engine == EngineKind::md
-                          ? Json(row.plan.stiffness_level.value_or(row.stiffness_level))
-                          : Json(nullptr)},
+            {"kappa", row.plan.engine == EngineKind::md ? Json(row.plan.stiffness_level.value_or(row.stiffness_level))
+                                                        : Json(nullptr)},
             {"dt", row.dt},
             {"dt_factor", maybe(row.plan.dt_factor)},
             {"tolerance", maybe(row.plan.tolerance)},

@@ -1,9 +1,9 @@
 #include "src/compare_report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "src/engines.hpp"
 #include "src/text_table.hpp"
@@ -83,8 +83,8 @@ std::string cheapest_text(const StateLimit& state, const Comparison& comparison)
   const CompareRow* cd = cheapest_within_error(comparison, state, EngineKind::cd);
   if (md)
     text += fmt::format("  cheapest md row within 2 errors of the limit: kappa = {}, {} {}\n",
-                        short_number(md->plan.stiffness_level.value_or(md->stiffness_level)),
-                        short_number(md->cost, 3), cost_unit(comparison));
+                        short_number(md->plan.stiffness_level.value_or(md->stiffness_level)), short_number(md->cost, 3),
+                        cost_unit(comparison));
   if (cd)
     text += fmt::format("  cheapest cd row within 2 errors of the limit: dt = {}, tolerance {}, {} {}\n",
                         short_number(cd->dt, 3), optional_number(cd->plan.tolerance), short_number(cd->cost, 3),
@@ -102,10 +102,10 @@ std::string state_text(const std::optional<double>& inertial_number, const Compa
   for (const CompareRow& row : comparison.rows) {
     if (row.plan.inertial_number != inertial_number) continue;
     table.add(cells(row, comparison));
-    const std::string label = fmt::format("{} {}", engine_name(row.plan.engine),
-                                          row.plan.engine == EngineKind::md
-                                              ? "kappa " + optional_number(row.plan.stiffness_level)
-                                              : "dt " + short_number(row.dt, 3));
+    const std::string label =
+        fmt::format("{} {}", engine_name(row.plan.engine),
+                    row.plan.engine == EngineKind::md ? "kappa " + optional_number(row.plan.stiffness_level)
+                                                      : "dt " + short_number(row.dt, 3));
     if (row.ending == Ending::failed) failures += fmt::format("  FAILED  {}: {}\n", label, row.failure);
     for (const std::string& note : row.notes) failures += fmt::format("  note  {}: {}\n", label, note);
   }
@@ -159,12 +159,33 @@ std::string compare_text(const Comparison& comparison) {
 
 CsvTable compare_table(const Comparison& comparison) {
   CsvTable table;
-  table.comments = {fmt::format("mu_star, Phi, z: means with standard errors; deviation: {} minus the rigid limit of its state",
-                                judged(comparison).name),
-                    "penetration: largest overlap in units of d; cost: processor seconds per unit strain (or time)"};
-  for (const char* name : {"engine", "I", "kappa", "dt", "dt_factor", "tolerance", "mu_star", "mu_star_error", "Phi",
-                           "Phi_error", "z", "z_error", "deviation", "deviation_error", "I_realised", "kappa_realised",
-                           "pressure", "penetration", "penetration_mean", "cost", "seconds", "steps", "missed",
+  table.comments = {
+      fmt::format("mu_star, Phi, z: means with standard errors; deviation: {} minus the rigid limit of its state",
+                  judged(comparison).name),
+      "penetration: largest overlap in units of d; cost: processor seconds per unit strain (or time)"};
+  for (const char* name : {"engine",
+                           "I",
+                           "kappa",
+                           "dt",
+                           "dt_factor",
+                           "tolerance",
+                           "mu_star",
+                           "mu_star_error",
+                           "Phi",
+                           "Phi_error",
+                           "z",
+                           "z_error",
+                           "deviation",
+                           "deviation_error",
+                           "I_realised",
+                           "kappa_realised",
+                           "pressure",
+                           "penetration",
+                           "penetration_mean",
+                           "cost",
+                           "seconds",
+                           "steps",
+                           "missed",
                            "ending"})
     table.columns.push_back({name, ""});
   const auto maybe = [](const std::optional<double>& value) {
@@ -172,14 +193,30 @@ CsvTable compare_table(const Comparison& comparison) {
   };
   for (const CompareRow& row : comparison.rows) {
     const auto off = deviation_of(row, comparison);
-    table.rows.push_back({engine_name(row.plan.engine), maybe(row.plan.inertial_number),
-                          maybe(row.plan.stiffness_level), row.dt, maybe(row.plan.dt_factor),
-                          maybe(row.plan.tolerance), maybe(row.mu_star.value), row.mu_star.error,
-                          maybe(row.solid_fraction.value), row.solid_fraction.error, maybe(row.z.value), row.z.error,
-                          off ? CsvCell(off->value) : CsvCell(), off ? CsvCell(off->error) : CsvCell(),
-                          maybe(row.inertial_number), maybe(row.stiffness_level), maybe(row.pressure),
-                          maybe(row.peak_penetration), maybe(row.mean_penetration), maybe(row.cost), row.seconds,
-                          std::int64_t{row.steps}, std::int64_t{row.solver.missed}, to_string(row.ending)});
+    table.rows.push_back({engine_name(row.plan.engine),
+                          maybe(row.plan.inertial_number),
+                          maybe(row.plan.stiffness_level),
+                          row.dt,
+                          maybe(row.plan.dt_factor),
+                          maybe(row.plan.tolerance),
+                          maybe(row.mu_star.value),
+                          row.mu_star.error,
+                          maybe(row.solid_fraction.value),
+                          row.solid_fraction.error,
+                          maybe(row.z.value),
+                          row.z.error,
+                          off ? CsvCell(off->value) : CsvCell(),
+                          off ? CsvCell(off->error) : CsvCell(),
+                          maybe(row.inertial_number),
+                          maybe(row.stiffness_level),
+                          maybe(row.pressure),
+                          maybe(row.peak_penetration),
+                          maybe(row.mean_penetration),
+                          maybe(row.cost),
+                          row.seconds,
+                          std::int64_t{row.steps},
+                          std::int64_t{row.solver.missed},
+                          to_string(row.ending)});
   }
   return table;
 }

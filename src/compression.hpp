@@ -22,7 +22,7 @@ struct CompressionReport {
   double pressure = 0;           ///< mean normal stress at its end
   double solid_fraction = 0;
   double z = 0;
-  bool equilibrium = false;      ///< reached before the limit
+  bool equilibrium = false;  ///< reached before the limit
   double cpu_seconds = 0;
 };
 

@@ -17,7 +17,8 @@ EngineKind engine_kind(const std::string& name) {
 template <int D>
 std::unique_ptr<Engine<D>> make_engine(EngineKind kind, const Scene& scene, const Derived& derived,
                                        const Sample<D>& sample) {
-  return kind == EngineKind::md ? md::make_engine<D>(scene, derived, sample) : cd::make_engine<D>(scene, derived, sample);
+  return kind == EngineKind::md ? md::make_engine<D>(scene, derived, sample)
+                                : cd::make_engine<D>(scene, derived, sample);
 }
 
 template std::unique_ptr<Engine<2>> make_engine<2>(EngineKind, const Scene&, const Derived&, const Sample<2>&);

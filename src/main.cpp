@@ -1,10 +1,10 @@
 // The command line: galet SUBCOMMAND ... Exit codes: 0 done, 1 the run failed or was stopped, 2 bad input.
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <exception>
 #include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "src/commands/commands.hpp"
@@ -36,9 +36,10 @@ int perform(const galet::cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Granular materials of disks and spheres: soft-sphere molecular dynamics (md) and nonsmooth contact "
-               "dynamics (cd) on one scene.",
-               "galet");
+  CLI::App app(
+      "Granular materials of disks and spheres: soft-sphere molecular dynamics (md) and nonsmooth contact "
+      "dynamics (cd) on one scene.",
+      "galet");
   app.set_version_flag("--version", "galet " GALET_VERSION);
   app.require_subcommand(1);
   galet::cli::Action action;

@@ -1,11 +1,11 @@
 #include "src/png.hpp"
 
+#include <array>
+#include <filesystem>
+
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-
-#include <array>
-#include <filesystem>
 
 extern char** environ;
 
@@ -33,7 +33,8 @@ bool run_program(std::array<const char*, N> arguments) {
 std::string convert_to_png(const std::string& svg_path) {
   const std::string png = std::filesystem::path(svg_path).replace_extension(".png").string();
   // "--": a path that begins with a dash is no option.
-  const std::array<const char*, 6> arguments = {"rsvg-convert", "--output", png.c_str(), "--", svg_path.c_str(), nullptr};
+  const std::array<const char*, 6> arguments = {"rsvg-convert", "--output",       png.c_str(),
+                                                "--",           svg_path.c_str(), nullptr};
   return run_program(arguments) ? png : std::string();
 }
 

@@ -11,21 +11,21 @@
 namespace galet {
 
 struct Progress {
-  std::string_view stage;      ///< "run", or "compression" of the gas that the run starts from
+  std::string_view stage;  ///< "run", or "compression" of the gas that the run starts from
   long step = 0;
-  long steps = 0;              ///< of the stage; an upper bound when it may stop at equilibrium
+  long steps = 0;  ///< of the stage; an upper bound when it may stop at equilibrium
   double steps_per_second = 0;
-  double seconds_left = 0;     ///< of wall time, at the pace so far
+  double seconds_left = 0;  ///< of wall time, at the pace so far
 };
 
 struct RunControl {
-  std::string_view stage = "run";                     ///< what progress calls it
-  std::function<void(const Progress&)> progress;      ///< called several times per second at most
-  std::function<bool()> stop;                         ///< true: stop after the current steps (a fraction of a second)
-  std::function<void(const Archive&)> checkpoint;     ///< called every `checkpoint_every` seconds of wall time
+  std::string_view stage = "run";                  ///< what progress calls it
+  std::function<void(const Progress&)> progress;   ///< called several times per second at most
+  std::function<bool()> stop;                      ///< true: stop after the current steps (a fraction of a second)
+  std::function<void(const Archive&)> checkpoint;  ///< called every `checkpoint_every` seconds of wall time
   double checkpoint_every = std::numeric_limits<double>::infinity();
   long most_steps = std::numeric_limits<long>::max();  ///< stop after so many steps (of the run proper)
-  bool keep_last_good = true;  ///< keep a copy of the state in memory, for RunResult::last_good
+  bool keep_last_good = true;                          ///< keep a copy of the state in memory, for RunResult::last_good
 };
 
 }  // namespace galet

@@ -1,8 +1,8 @@
 #include "src/run_files.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "common/io/csv.hpp"
 #include "common/io/files.hpp"
@@ -40,8 +40,7 @@ std::vector<std::string> write_run(const RunResult& result, Simulation<D>& simul
   add_figure(files, path(engine + (result.strain != 0 ? "_mu_star" : "_Phi")), history(result, scene));
   if constexpr (D == 2) {
     if (result.ending != Ending::failed)
-      add_picture(files, path("sample_" + engine),
-                  force_chain_svg(simulation.engine().snapshot(), {.title = scene + ", " + engine}));
+      add_picture(files, path("sample_" + engine), force_chain_svg(simulation.engine().snapshot(), {.title = scene}));
   }
   return files;
 }

@@ -1,8 +1,8 @@
 #include "src/run_result.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "src/engines.hpp"
@@ -62,10 +62,14 @@ Json compression_json(const std::optional<CompressionReport>& report) {
 
 std::string to_string(Ending ending) {
   switch (ending) {
-    case Ending::finished: return "finished";
-    case Ending::equilibrium: return "equilibrium";
-    case Ending::interrupted: return "interrupted";
-    case Ending::failed: return "failed";
+    case Ending::finished:
+      return "finished";
+    case Ending::equilibrium:
+      return "equilibrium";
+    case Ending::interrupted:
+      return "interrupted";
+    case Ending::failed:
+      return "failed";
   }
   return "";
 }

@@ -38,15 +38,15 @@ struct RunResult {
   long steps = 0;
   long total_steps = 0;
   TimeSeries series;
-  Averages averages;               ///< from run.average_from on
-  Measurement last;                ///< the latest single sample
+  Averages averages;  ///< from run.average_from on
+  Measurement last;   ///< the latest single sample
   SolverSummary solver;
-  double cpu_seconds = 0;          ///< of the calling thread, in steps only: measures and files don't count
-  double wall_seconds = 0;         ///< of the steps
+  double cpu_seconds = 0;   ///< of the calling thread, in steps only: measures and files don't count
+  double wall_seconds = 0;  ///< of the steps
   std::array<double, static_cast<int>(Stage::count)> stage_seconds{};  ///< by stage_names, since the (re)start
-  std::uint64_t state_hash = 0;    ///< of the engine's state; 0 when failed
-  std::optional<CompressionReport> compression;  ///< the stage before, when the scene has one
-  std::optional<Archive> last_good;  ///< failed: the latest sound state that was kept
+  std::uint64_t state_hash = 0;                                        ///< of the engine's state; 0 when failed
+  std::optional<CompressionReport> compression;                        ///< the stage before, when the scene has one
+  std::optional<Archive> last_good;                                    ///< failed: the latest sound state that was kept
 };
 
 /// One JSON object (2-space indent): the end of the run, averages with errors, last sample, costs, state hash.

@@ -31,10 +31,10 @@ long steps_for(double duration, double dt) {
   return std::max(1L, static_cast<long>(std::ceil(duration / dt * (1 - 1e-12))));
 }
 
-Schedule make_schedule(long total_steps, int rows, int samples_per_row) {
-  require(total_steps >= 1 && rows >= 1 && samples_per_row >= 1, "a schedule needs steps, rows and samples");
+Schedule make_schedule(long total_steps, int rows, long interval) {
+  require(total_steps >= 1 && rows >= 1 && interval >= 1, "a schedule needs steps, rows and an interval");
   const long written = std::min<long>(rows, total_steps);
-  const long per_row = std::clamp<long>(total_steps / written, 1, samples_per_row);
+  const long per_row = std::max(1L, total_steps / (written * interval));
   return {static_cast<double>(total_steps) / static_cast<double>(written * per_row), static_cast<int>(per_row)};
 }
 

@@ -22,7 +22,8 @@ struct Schedule {
 /// Steps of a run of `duration`: the first whole number of steps that reaches it.
 long steps_for(double duration, double dt);
 
-/// `rows` rows (fewer when there are fewer steps), each the mean of up to `samples_per_row` samples.
-Schedule make_schedule(long total_steps, int rows, int samples_per_row = 10);
+/// `rows` rows (fewer when there are fewer steps), each the mean of samples that are `interval` steps apart: the
+/// steps in which forces change. Rarer samples would be shot noise of the collisions.
+Schedule make_schedule(long total_steps, int rows, long interval);
 
 }  // namespace galet

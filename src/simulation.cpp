@@ -1,9 +1,9 @@
 #include "src/simulation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "common/scene/packing.hpp"
@@ -17,8 +17,8 @@ namespace {
 
 void save_report(Archive& archive, const std::optional<CompressionReport>& report) {
   if (!report) return;
-  archive.reals["run.compression"] = {report->time,     report->kinetic_per_grain, report->pressure,
-                                      report->solid_fraction, report->z,           report->cpu_seconds};
+  archive.reals["run.compression"] = {report->time, report->kinetic_per_grain, report->pressure, report->solid_fraction,
+                                      report->z,    report->cpu_seconds};
   archive.integers["run.compression"] = {report->steps, report->equilibrium ? 1 : 0};
 }
 
@@ -26,8 +26,14 @@ std::optional<CompressionReport> stored_report(const Archive& archive) {
   if (!archive.reals.contains("run.compression")) return std::nullopt;
   const auto& reals = real_column(archive, "run.compression");
   const auto& integers = integer_column(archive, "run.compression");
-  return CompressionReport{reals.at(0), integers.at(0), reals.at(1), reals.at(2),
+  return CompressionReport{reals.at(0), integers.at(0), reals.at(1),         reals.at(2),
                            reals.at(3), reals.at(4),    integers.at(1) != 0, reals.at(5)};
+}
+
+/// Steps in which forces change: a rigid grain's impulses are new in each step; a soft contact lasts tau_c.
+long sample_interval(EngineKind kind, const Derived& derived, double dt) {
+  if (kind == EngineKind::cd || !derived.collision_time) return 1;
+  return std::max(1L, std::lround(0.5 * *derived.collision_time / dt));
 }
 
 }  // namespace
@@ -79,7 +85,7 @@ void Simulation<D>::start_run(const Sample<D>& start) {
   if (scene_.run.equilibrium) equilibrium_.emplace(scene_, derived_, start_, *scene_.run.equilibrium);
   scale_ = measure_scale(derived_, kind_ == EngineKind::cd);
   total_steps_ = steps_for(derived_.duration, engine_->dt());
-  schedule_ = make_schedule(total_steps_, scene_.run.samples);
+  schedule_ = make_schedule(total_steps_, scene_.run.samples, sample_interval(kind_, derived_, engine_->dt()));
   series_.dimension = D;
 }
 
@@ -234,12 +240,11 @@ bool Simulation<D>::take_sample(Pace& pace) {
   last_ = measure(*engine_, scale_);
   ++samples_;
   row_.add(last_);
-  const bool settled = equilibrium_ && equilibrium_->reached(last_);
-  if (settled || row_.samples() == schedule_.samples_per_row) {
+  if (row_.samples() == schedule_.samples_per_row) {
     series_.rows.push_back(row_.finish(scale_));
     if (pace.copy_due()) last_good_ = checkpoint();
   }
-  return settled;
+  return equilibrium_ && equilibrium_->reached(last_);
 }
 
 // ---- What is handed back ----
@@ -254,7 +259,10 @@ void Simulation<D>::report(RunResult& result) const {
   result.steps = engine_->steps();
   result.total_steps = total_steps_;
   result.series = series_;
-  result.averages = averages(series_, scene_.run.average_from);
+  const bool ended = result.ending == Ending::finished || result.ending == Ending::equilibrium;
+  // The samples since the last row are shown as a row, and kept as samples: a run that is lengthened completes it.
+  if (RowAverager rest = row_; ended && rest.samples() > 0) result.series.rows.push_back(rest.finish(scale_));
+  result.averages = averages(result.series, scale_, scene_.run.average_from);
   result.last = last_;
   result.solver = engine_->solver_summary();
   result.cpu_seconds = cpu_seconds_;

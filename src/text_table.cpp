@@ -1,9 +1,9 @@
 #include "src/text_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 

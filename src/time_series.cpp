@@ -1,11 +1,11 @@
 #include "src/time_series.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 
@@ -14,10 +14,17 @@ namespace galet {
 void RowAverager::add(const Measurement& sample) {
   for (int k = 0; k < observable_count; ++k) {
     switch (observable_table[k].reduction) {
-      case Reduction::mean: sums_.values[k] += sample.values[k]; break;
-      case Reduction::latest: sums_.values[k] = sample.values[k]; break;
-      case Reduction::largest: sums_.values[k] = std::max(sums_.values[k], sample.values[k]); break;
-      case Reduction::derived: break;
+      case Reduction::mean:
+        sums_.values[k] += sample.values[k];
+        break;
+      case Reduction::latest:
+        sums_.values[k] = sample.values[k];
+        break;
+      case Reduction::largest:
+        sums_.values[k] = std::max(sums_.values[k], sample.values[k]);
+        break;
+      case Reduction::derived:
+        break;
     }
   }
   ++samples_;
@@ -81,23 +88,43 @@ Estimate ratio_of_means(const std::vector<double>& numerator, const std::vector<
   return {std::abs(ratio), block_average(residual).error};
 }
 
-Averages averages(const TimeSeries& series, double average_from) {
+namespace {
+
+/// The columns that follow from the stress, from its mean, and their errors: those of their own fluctuations for the
+/// pressure and mu*, and those of the pressure that they are divided by for I ~ P^(-1/2) and kappa ~ P^(-1).
+void average_derived(Averages& result, const TimeSeries& series, const MeasureScale& scale) {
+  Measurement mean;
+  for (int k = 0; k < observable_count; ++k) mean.values[k] = result.values[k].value;
+  complete(mean, scale);
+  const auto put = [&](Observable observable, double error) {
+    result.values[static_cast<int>(observable)] = {mean[observable], error};
+  };
+  put(Observable::pressure, result[Observable::pressure].error);
+  put(Observable::mu_star,
+      ratio_of_means(series.column(Observable::sigma_xy, result.from), series.column(Observable::sigma_yy, result.from))
+          .error);
+  const Estimate& reference = result[scale.shear_rate != 0 ? Observable::sigma_yy : Observable::pressure];
+  const double relative = reference.value > 0 ? reference.error / reference.value : 0;
+  put(Observable::inertial_number, 0.5 * relative * mean[Observable::inertial_number]);
+  put(Observable::stiffness_level, relative * mean[Observable::stiffness_level]);
+}
+
+}  // namespace
+
+Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from) {
   Averages result;
   if (series.rows.empty()) return result;
   require(average_from >= 0 && average_from < 1, "averages start at a fraction of the run below 1");
   result.from = average_from * series.rows.back()[Observable::time];
   for (int k = 0; k < observable_count; ++k) {
-    const auto observable = static_cast<Observable>(k);
-    const std::vector<double> values = series.column(observable, result.from);
+    const std::vector<double> values = series.column(static_cast<Observable>(k), result.from);
     result.rows = static_cast<int>(values.size());
-    if (observable == Observable::mu_star)
-      result.values[k] = ratio_of_means(series.column(Observable::sigma_xy, result.from),
-                                        series.column(Observable::sigma_yy, result.from));
-    else if (info(observable).reduction == Reduction::largest)
+    if (observable_table[k].reduction == Reduction::largest)
       result.values[k] = {*std::max_element(values.begin(), values.end()), 0};
     else
       result.values[k] = block_average(values);
   }
+  average_derived(result, series, scale);
   return result;
 }
 
@@ -110,9 +137,11 @@ CsvTable to_table(const TimeSeries& series) {
   }
   for (const Measurement& row : series.rows) {
     std::vector<CsvCell>& cells = table.rows.emplace_back();
-    for (int k = 0; k < observable_count; ++k)
-      if (shown(static_cast<Observable>(k), series.dimension))
-        cells.push_back(std::isnan(row.values[k]) ? CsvCell() : CsvCell(row.values[k]));
+    for (int k = 0; k < observable_count; ++k) {
+      if (!shown(static_cast<Observable>(k), series.dimension)) continue;
+      cells.emplace_back();
+      if (!std::isnan(row.values[k])) cells.back() = row.values[k];
+    }
   }
   return table;
 }

@@ -8,8 +8,8 @@
 //
 // Momentum (AGS): after a sweep that took y to r, the next sweep starts from r + beta (r - r_previous), with
 // Nesterov's beta capped (0.9) and a restart when the sweep's change grows. Velocities and hub are affine in the
-// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 5 to 10 times fewer sweeps in
-// dense assemblies than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
+// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 2.5 to 9 times fewer sweeps in
+// dense packings from a cold start than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
 //
 // Sources: Moreau 1994; Jean 1999; Jourdan, Alart and Jean 1998; momentum after Nesterov 1983 with the restart of
 // O'Donoghue and Candes 2015. Cost per sweep: one visit of each contact.
@@ -42,8 +42,9 @@ class Nsgs {
       const ResidualParts change = sweep(problem, iterate);
       report.sweeps = sweep_count;
       const bool last = sweep_count >= options.max_sweeps;
-      // The change of one sweep bounds how good the residual can be; testing it first saves most residual passes.
-      const bool promising = change.map <= options.tolerance * options.tolerance * change.impulse;
+      // Testing the change of the sweep first, which costs nothing, saves most residual passes.
+      // (Measured: the residual is 0.3 to 0.5 of the relative change.)
+      const bool promising = change.map <= 4 * options.tolerance * options.tolerance * change.impulse;
       if (last || (promising && sweep_count >= next_check)) {
         report.residual = residual(problem, iterate, partial_residual_);
         report.stop = report.residual <= options.tolerance ? StopReason::converged : StopReason::max_iterations;

@@ -6,19 +6,23 @@
 namespace galet {
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // One row of the dynamic programme: cost[j] is the distance between the first i letters of a and j of b.
-  std::vector<int> cost(b.size() + 1);
-  std::iota(cost.begin(), cost.end(), 0);
+  // Rows of the dynamic programme: row[j] is the distance between the first i letters of a and the first j of b.
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  std::vector<int> above = row;      // of i - 1
+  std::vector<int> two_above = row;  // of i - 2
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = cost[0];
-    cost[0] = static_cast<int>(i);
+    two_above.swap(above);
+    above.swap(row);
+    row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = cost[j];
-      cost[j] = std::min({replaced, cost[j] + 1, cost[j - 1] + 1});
+      const int replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, above[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], two_above[j - 2] + 1);
     }
   }
-  return cost[b.size()];
+  return row[b.size()];
 }
 
 namespace {

@@ -8,7 +8,8 @@
 
 namespace galet {
 
-/// Levenshtein distance: the least number of letters to insert, delete or replace.
+/// Levenshtein distance, with a swap of two neighbours as one step too (the commonest slip): the least number of
+/// letters to insert, delete, replace or swap. (Optimal string alignment: no letter is changed twice.)
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate that `name` was probably meant to be: upper and lower case apart, at most a third of its letters

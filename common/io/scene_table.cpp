@@ -361,12 +361,12 @@ void add_compare(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.compare.stiffness_levels; },
                   .range = above(0),
                   .fallback = "the scene's own",
-                  .doc = "md: values of kappa; needs `loading.pressure`"});
+                  .doc = "md: values of kappa, in place of the material's stiffness; needs `loading.pressure`"});
   rows.push_back({.path = "compare.cd_dt_factors",
                   .target = [](Scene& s) -> FieldTarget { return &s.compare.cd_dt_factors; },
                   .range = above(0),
                   .fallback = "the scene's own",
-                  .doc = "cd: values of `cd.dt_factor`; excludes `cd.dt`"});
+                  .doc = "cd: values of `cd.dt_factor`, in place of `cd.dt`"});
   rows.push_back({.path = "compare.cd_tolerances",
                   .target = [](Scene& s) -> FieldTarget { return &s.compare.cd_tolerances; },
                   .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},

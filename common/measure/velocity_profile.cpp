@@ -15,10 +15,12 @@ namespace {
 template <int D>
 double volume_below(double t, double radius) {
   t = std::clamp(t, -radius, radius);
-  if constexpr (D == 2)
-    return radius * radius * (std::numbers::pi / 2 + std::asin(t / radius)) + t * std::sqrt(radius * radius - t * t);
-  else
+  if constexpr (D == 2) {
+    const double half_chord = std::sqrt((radius - t) * (radius + t));
+    return radius * radius * (std::numbers::pi / 2 + std::atan2(t, half_chord)) + t * half_chord;
+  } else {
     return std::numbers::pi * (radius + t) * (radius + t) * (2 * radius - t) / 3;
+  }
 }
 
 /// Adds the volume of a grain whose centre is at `height` to the layers that it crosses.

@@ -417,8 +417,6 @@ void check_compare(Report& report) {
               "compare.inertial_numbers needs loading.inertial_number", {"loading.inertial_number"});
   report.rule(compare.stiffness_levels.empty() || scene.loading.pressure, "compare.stiffness_levels",
               "compare.stiffness_levels needs loading.pressure", {"loading.pressure"});
-  report.rule(compare.cd_dt_factors.empty() || !scene.cd.dt, "compare.cd_dt_factors",
-              "compare.cd_dt_factors and cd.dt exclude each other", {"cd.dt"});
   check_repeated(report, "compare.inertial_numbers", compare.inertial_numbers);
   check_repeated(report, "compare.stiffness_levels", compare.stiffness_levels);
   check_repeated(report, "compare.cd_dt_factors", compare.cd_dt_factors);

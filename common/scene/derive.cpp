@@ -69,6 +69,8 @@ void derive_times(const Scene& scene, Derived& derived) {
         std::sqrt(grains.mean_mass / (*derived.pressure * force_scale_power(scene.dimension, grains.mean_diameter)));
   const LoadingSpec& loading = scene.loading;
   if (loading.shear_rate) derived.shear_rate = loading.shear_rate;
+  for (const CellDrive& drive : loading.drives)
+    if (drive.component == "xy" && drive.rate) derived.shear_rate = drive.rate;
   if (loading.inertial_number && derived.inertial_time)
     derived.shear_rate = *loading.inertial_number / *derived.inertial_time;
   if (derived.shear_rate && derived.inertial_time)

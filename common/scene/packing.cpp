@@ -149,15 +149,15 @@ void place_on_lattice(const Scene& scene, Sample<D>& sample) {
   const std::size_t count = sample.position.size();
   SiteCounts<D> lattice(sample.cell.box.diagonal());
   std::vector<Vec<D>> sites;
-  while (sites.size() < count) {
-    do lattice.refine();
-    while (lattice.total() < static_cast<long>(count));
+  for (;; lattice.refine()) {
+    if (lattice.total() < static_cast<long>(count)) continue;
     if (lattice.least_spacing() < diameter * (1 - 1e-12))
       throw InputError(fmt::format(
           "a lattice of {} grains in this cell has a spacing of {:.6g}, less than the largest diameter {:.6g}: lower "
           "initial.solid_fraction or enlarge cell.size",
           count, lattice.least_spacing(), diameter));
     sites = free_sites<D>(lattice, sample.planes, diameter / 2);
+    if (sites.size() >= count) break;
   }
   const double slack = std::max(0.0, lattice.least_spacing() - diameter);
   const double shake = std::min(0.01 * diameter, 0.49 * slack / std::sqrt(D));

@@ -54,8 +54,8 @@ std::vector<Vec<D>> random_insertion(const Cell<D>& cell, const std::vector<Plan
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return radius[a] > radius[b]; });
   if (count == 0) return {};
 
-  // In 2D at solid fraction 0.5 a grain takes 40 attempts on average and the last ones some hundreds; the attempts
-  // that early grains leave over serve the late ones.
+  // Far more than any density takes that can be reached at all; the attempts that early grains leave over serve the
+  // late ones.
   long attempts_left = 1000L * count + 100000;
   PlacementGrid<D> grid(cell, 2 * radius[order[0]], count);
   std::vector<Vec<D>> position(radius.size());

@@ -1,9 +1,9 @@
 #include "src/commands/arguments.hpp"
 
+#include <filesystem>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <filesystem>
 
 #include "common/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // galet check: is the scene sound? Every mistake is listed; nothing is run.
+#include <memory>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/core/error.hpp"
@@ -25,9 +25,8 @@ struct CheckArguments {
 std::vector<Mistake> mistakes_of(const SceneArguments& arguments) {
   try {
     const Scene scene = load(arguments);
-    with_dimension(scene.dimension, [&](auto dimension) {
-      derive(scene, grain_facts(scene, initial_sample<dimension>(scene)));
-    });
+    with_dimension(scene.dimension,
+                   [&](auto dimension) { derive(scene, grain_facts(scene, initial_sample<dimension>(scene))); });
     return {};
   } catch (const InputError& error) {
     return error.mistakes();
@@ -40,10 +39,8 @@ int check_scene(const CheckArguments& arguments) {
     nlohmann::ordered_json json{{"file", arguments.scene.path}, {"ok", mistakes.empty()}};
     json["mistakes"] = nlohmann::ordered_json::array();
     for (const Mistake& mistake : mistakes)
-      json["mistakes"].push_back({{"file", mistake.file},
-                                  {"line", mistake.line},
-                                  {"column", mistake.column},
-                                  {"message", mistake.message}});
+      json["mistakes"].push_back(
+          {{"file", mistake.file}, {"line", mistake.line}, {"column", mistake.column}, {"message", mistake.message}});
     fmt::print("{}\n", json.dump(2));
   } else {
     for (const Mistake& mistake : mistakes) fmt::print(stderr, "{}\n", to_string(mistake));

@@ -1,12 +1,12 @@
 // galet compare: both engines on one scene, speed against error.
 #include "src/compare.hpp"
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"

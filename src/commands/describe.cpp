@@ -1,9 +1,9 @@
 // galet describe: what will run. The numbers that follow from the scene, both engines' time steps, number of steps
 // and estimated cost.
+#include <memory>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/scene/packing.hpp"
@@ -44,13 +44,13 @@ void add_notes(Outlook& outlook) {
   const Derived& derived = outlook.derived;
   if (!derived.soft) outlook.notes.push_back("md can't run it: the scene says nothing about stiffness");
   if (derived.md_dt && derived.md_dt_stable && *derived.md_dt > *derived.md_dt_stable)
-    outlook.notes.push_back(fmt::format("md.dt is above its stability bound {:.4g}{}", *derived.md_dt_stable,
-                                        outlook.scene.md.allow_unsafe_dt ? ", as allowed by md.allow_unsafe_dt"
-                                                                         : ": md will refuse to run"));
-  if (outlook.scene.initial.kind == InitialKind::compressed_gas)
     outlook.notes.push_back(fmt::format(
-        "before the run the gas is compressed, for at most {:g} inertial times; that is not in the cost",
-        compression_limit));
+        "md.dt is above its stability bound {:.4g}{}", *derived.md_dt_stable,
+        outlook.scene.md.allow_unsafe_dt ? ", as allowed by md.allow_unsafe_dt" : ": md will refuse to run"));
+  if (outlook.scene.initial.kind == InitialKind::compressed_gas)
+    outlook.notes.push_back(
+        fmt::format("before the run the gas is compressed, for at most {:g} inertial times; that is not in the cost",
+                    compression_limit));
 }
 
 Outlook outlook_of(const Scene& scene) {
@@ -84,8 +84,7 @@ std::string text_of(const Outlook& outlook) {
   TextTable table({"engine", "dt", "steps", "cost, a guess"});
   for (const EngineOutlook& engine : outlook.engines)
     table.add({engine_name(engine.kind) + (engine.kind == outlook.scene.engine ? " (the scene's)" : ""),
-               short_number(engine.cost.dt), fmt::format("{}", engine.cost.steps),
-               duration_text(engine.cost.seconds)});
+               short_number(engine.cost.dt), fmt::format("{}", engine.cost.steps), duration_text(engine.cost.seconds)});
   text += "\n" + table.text();
   text += fmt::format("galet compare: {} rows, {} of processor time, a guess\n", outlook.compare_rows,
                       duration_text(outlook.compare_seconds));

@@ -1,9 +1,9 @@
 // galet export: the grains of a checkpoint as a packing file for other programs, or for initial.kind = "packing".
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "common/io/checkpoint.hpp"
 #include "common/io/lammps.hpp"

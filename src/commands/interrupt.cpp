@@ -1,8 +1,8 @@
 #include "src/commands/interrupt.hpp"
 
-#include <signal.h>
-
 #include <atomic>
+
+#include <signal.h>
 
 namespace galet::cli {
 

@@ -1,9 +1,9 @@
 #include "src/commands/progress_line.hpp"
 
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <cstdio>
 
 namespace galet::cli {
 

@@ -1,9 +1,9 @@
 // galet run: one scene with one engine, from its start or from a checkpoint.
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "common/core/parallel.hpp"

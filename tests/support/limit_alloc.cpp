@@ -1,6 +1,7 @@
 #include "tests/support/limit_alloc.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 
@@ -13,7 +14,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
   if (watchers.load(std::memory_order_relaxed) > 0) allocations.fetch_add(1, std::memory_order_relaxed);
   if (size == 0) size = 1;
   // aligned_alloc wants a size that is a multiple of the alignment.
-  void* memory = alignment <= alignof(std::max_align_t)
+  void* memory = alignment <= alignof(max_align_t)
                      ? std::malloc(size)
                      : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();

@@ -1,13 +1,13 @@
 // A folder of its own for one test, removed with everything in it at the end.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include <unistd.h>
 
 namespace galet::test {
 
@@ -45,6 +45,7 @@ inline std::string file_bytes(const std::string& path) {
 }
 
 inline void put_bytes(const std::string& path, const std::string& bytes) {
+  std::filesystem::remove(path);  // some file systems flush a file that is cut short and written again
   std::ofstream(path, std::ios::binary) << bytes;
 }
 

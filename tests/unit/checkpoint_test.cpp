@@ -1,6 +1,5 @@
 // Checkpoints: what is read has the bits of what was written, or reading is refused.
-#include <gtest/gtest.h>
-#include <sys/resource.h>
+#include "common/io/checkpoint.hpp"
 
 #include <bit>
 #include <csignal>
@@ -8,9 +7,10 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "common/core/error.hpp"
-#include "common/io/checkpoint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet {
@@ -22,13 +22,17 @@ using test::TemporaryFolder;
 
 Archive sample_archive() {
   Archive archive;
-  archive.reals["grains.position"] = {0.1, -0.0, std::numeric_limits<double>::denorm_min(), 1e308,
+  archive.reals["grains.position"] = {0.1,
+                                      -0.0,
+                                      std::numeric_limits<double>::denorm_min(),
+                                      1e308,
                                       std::numeric_limits<double>::infinity(),
                                       std::bit_cast<double>(0x7ff8'dead'beef'1234ULL),   // quiet NaN with a payload
                                       std::bit_cast<double>(0xfff0'0000'0000'0001ULL)};  // signalling NaN
   archive.reals["empty"] = {};
   archive.reals["md/history/xi"] = {1, 2, 3};
-  archive.integers["steps"] = {std::numeric_limits<std::int64_t>::min(), -1, 0, std::numeric_limits<std::int64_t>::max()};
+  archive.integers["steps"] = {std::numeric_limits<std::int64_t>::min(), -1, 0,
+                               std::numeric_limits<std::int64_t>::max()};
   archive.integers["none"] = {};
   archive.texts["scene"] = "title = \"Été µ\"\n# a comment\n";
   archive.texts["nothing"] = "";
@@ -143,7 +147,7 @@ TEST(Checkpoint, EveryFlippedBitIsRefused) {
   const std::string path = folder.file("a.h5");
   write_checkpoint(path, sample_archive());
   const std::string good = file_bytes(path);
-  for (std::size_t place = 0; place < good.size(); place += good.size() > 20000 ? 7 : 3) {
+  for (std::size_t place = 0; place<good.size(); place += good.size()> 20000 ? 7 : 3) {
     std::string bad = good;
     bad[place] = static_cast<char>(bad[place] ^ (1 << (place % 8)));
     put_bytes(path, bad);

@@ -1,12 +1,13 @@
-#include <gtest/gtest.h>
+#include "common/io/csv.hpp"
 
 #include <bit>
 #include <cmath>
 #include <limits>
 
+#include <gtest/gtest.h>
+
 #include "common/core/error.hpp"
 #include "common/core/random.hpp"
-#include "common/io/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet {

@@ -17,7 +17,8 @@ struct BadScene {
   std::string text;
   std::vector<std::string> expected;  ///< "line:column: message", all of them, in the order of the file
 
-  friend std::ostream& operator<<(std::ostream& out, const BadScene& scene) { return out << scene.text; }
+  /// The name only: ctest reads the list of tests, and brackets of a text would confuse it.
+  friend std::ostream& operator<<(std::ostream& out, const BadScene& scene) { return out << scene.name; }
 };
 
 /// "line:column: message" of each mistake of a text.

@@ -72,7 +72,8 @@ normal = [0, 1]
       {"text_for_number",
        sound + R"(material.friction = "0.4"
 )",
-       {R"(5:21: material.friction: expected a number >= 0, got "0.4" (this field has no unit: leave out the quotes))"}},
+       {R"(5:21: material.friction: expected a number >= 0, got "0.4" (this field has no unit: )"
+        R"(leave out the quotes))"}},
       {"number_for_text",
        sound + R"(title = 3
 )",
@@ -194,7 +195,8 @@ loading.gravity = [0, 0, 0, -1]
        sound + R"(loading.kind = "plane_sheer"
 loading.shear_rate = 1
 )",
-       {R"(5:16: loading.kind: expected "none", "plane_shear", "isotropic" or "drives", got "plane_sheer"; did you mean "plane_shear"?)"}},
+       {R"(5:16: loading.kind: expected "none", "plane_shear", "isotropic" or "drives", got )"
+        R"("plane_sheer"; did you mean "plane_shear"?)"}},
       {"unknown_engine",
        sound + R"(engine = "fem"
 )",
@@ -206,7 +208,8 @@ loading.shear_rate = 1
       {"unit_in_reduced",
        sound + R"(loading.pressure = "10 kPa"
 )",
-       {R"(5:20: loading.pressure: expected a pressure > 0, got "10 kPa"; values with units need units = "SI" at the top of the file)"}},
+       {R"(5:20: loading.pressure: expected a pressure > 0, got "10 kPa"; values with units need )"
+        R"(units = "SI" at the top of the file)"}},
       {"wrong_unit",
        sound + R"(units = "SI"
 dimension = 3
@@ -221,7 +224,8 @@ grains.diameter = 1e-3
 grains.density = 2600
 loading.pressure = "10 kPa"
 )",
-       {R"(8:20: loading.pressure: expected a pressure in N/m, kN/m, MN/m or GN/m (in 2D a force per length), got "10 kPa")"}},
+       {R"(8:20: loading.pressure: expected a pressure in N/m, kN/m, MN/m or GN/m (in 2D a force )"
+        R"(per length), got "10 kPa")"}},
       {"unit_in_wrong_case",
        sound + R"(units = "SI"
 dimension = 3
@@ -242,7 +246,8 @@ grains.diameter = 1e-3
 grains.mass = 1
 material.friction = "0.3 m"
 )",
-       {R"(8:21: material.friction: expected a number >= 0, got "0.3 m" (this field has no unit: leave out the quotes))"}},
+       {R"(8:21: material.friction: expected a number >= 0, got "0.3 m" (this field has no unit: )"
+        R"(leave out the quotes))"}},
       {"converted_value_out_of_range",
        sound + R"(units = "SI"
 grains.diameter = "-1 mm"
@@ -275,8 +280,8 @@ grains.mass = "1 g"
        {"5:16: TOML syntax: Error while parsing key-value pair: cannot redefine existing integer 'run.duration'"}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(BadFields, SceneReader, testing::ValuesIn(bad_fields()),
-                         [](const auto& info) { return info.param.name; });
+const auto name_of = [](const auto& bad) { return bad.param.name; };
+INSTANTIATE_TEST_SUITE_P(BadFields, SceneReader, testing::ValuesIn(bad_fields()), name_of);
 
 }  // namespace
 }  // namespace galet::test

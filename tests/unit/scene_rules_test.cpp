@@ -249,6 +249,10 @@ cell.periodic = [true, false]
 cell.aspect = [1, 1, 1]
 )",
        {"5:17: cell.periodic: 2D needs 2 components, got 1", "6:15: cell.aspect: 2D needs 2 components, got 3"}},
+      {"size_components",
+       sound + R"(cell.size = [9, 9, 9]
+)",
+       {"5:13: cell.size: 2D needs 2 components, got 3"}},
       {"size_and_aspect",
        sound + R"(cell.size = [9, 9]
 cell.aspect = [1, 1]
@@ -314,6 +318,10 @@ loading.inertial_number = 0.1
        sound + R"(loading.shear_rate = 0.1
 )",
        {R"(5:22: loading.shear_rate needs loading.kind = "plane_shear")"}},
+      {"inertial_number_without_shear",
+       sound + R"(loading.inertial_number = 0.1
+)",
+       {R"(5:27: loading.inertial_number needs loading.kind = "plane_shear")"}},
       {"isotropic_without_pressure",
        sound + R"(loading.kind = "isotropic"
 )",
@@ -357,7 +365,8 @@ rate = 0.1
 component = "isotrope"
 rate = 0.1
 )",
-       {R"(7:13: drive[0].component: expected "xx", "xy", "yx", "yy" or "isotropic", got "isotrope"; did you mean "isotropic"?)"}},
+       {R"(7:13: drive[0].component: expected "xx", "xy", "yx", "yy" or "isotropic", got )"
+        R"("isotrope"; did you mean "isotropic"?)"}},
       {"component_twice",
        sound + R"(loading.kind = "drives"
 [[drive]]
@@ -416,12 +425,9 @@ loading.shear_rate = 1
       {"sweeps_without_their_parameter",
        sound + R"(compare.inertial_numbers = [0.1]
 compare.stiffness_levels = [1e3]
-cd.dt = 1e-3
-compare.cd_dt_factors = [0.01]
 )",
        {"5:28: compare.inertial_numbers needs loading.inertial_number",
-        "6:28: compare.stiffness_levels needs loading.pressure",
-        "8:25: compare.cd_dt_factors and cd.dt exclude each other"}},
+        "6:28: compare.stiffness_levels needs loading.pressure"}},
       {"sweep_repeats",
        sound + R"(compare.cd_tolerances = [1e-3, 1e-4, 1e-3]
 )",
@@ -435,7 +441,7 @@ cd.dt_factor = 0.01
        {"6:24: md.dt and md.steps_per_contact exclude each other", "8:16: cd.dt and cd.dt_factor exclude each other"}}};
 }
 
-const auto name_of = [](const auto& info) { return info.param.name; };
+const auto name_of = [](const auto& bad) { return bad.param.name; };
 INSTANTIATE_TEST_SUITE_P(Grains, SceneRules, testing::ValuesIn(bad_grains()), name_of);
 INSTANTIATE_TEST_SUITE_P(Samples, SceneRules, testing::ValuesIn(bad_samples()), name_of);
 INSTANTIATE_TEST_SUITE_P(Loadings, SceneRules, testing::ValuesIn(bad_loadings()), name_of);

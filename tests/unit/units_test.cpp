@@ -58,6 +58,10 @@ TEST(NearMatch, CountsLettersToChange) {
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
   EXPECT_EQ(edit_distance("restituton", "restitution"), 1);
+  EXPECT_EQ(edit_distance("cuont", "count"), 1);
+  EXPECT_EQ(edit_distance("ab", "ba"), 1);
+  EXPECT_EQ(edit_distance("abcd", "badc"), 2);
+  EXPECT_EQ(edit_distance("ca", "abc"), 3);  // no letter is changed twice
 }
 
 TEST(NearMatch, FindsTheNearestNameOnly) {
