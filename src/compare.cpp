@@ -207,7 +207,7 @@ class Comparer {
   std::atomic<bool> abandoned_ = false;
 };
 
-RigidLimit limit_of(const std::vector<const CompareRow*>& rows, Estimate CompareRow::*quantity) {
+RigidLimit limit_of(const std::vector<const CompareRow*>& rows, Estimate CompareRow::*quantity, double power) {
   std::vector<MdRun> md;
   std::vector<CdRun> cd;
   for (const CompareRow* row : rows) {
@@ -218,7 +218,7 @@ RigidLimit limit_of(const std::vector<const CompareRow*>& rows, Estimate Compare
     else
       cd.push_back({row->dt, row->plan.tolerance.value_or(0), value});
   }
-  return rigid_limit(md, cd);
+  return rigid_limit(md, cd, power);
 }
 
 }  // namespace
@@ -234,8 +234,9 @@ std::vector<StateLimit> state_limits(const std::vector<CompareRow>& rows) {
     for (const CompareRow& row : rows)
       if (row.plan.inertial_number == state && row.usable()) members.push_back(&row);
     if (members.empty()) continue;
-    limits.push_back({state, limit_of(members, &CompareRow::mu_star), limit_of(members, &CompareRow::solid_fraction),
-                      limit_of(members, &CompareRow::z)});
+    // Powers of 1/kappa in which the md limit is taken: see rigid_limit.hpp.
+    limits.push_back({state, limit_of(members, &CompareRow::mu_star, 1),
+                      limit_of(members, &CompareRow::solid_fraction, 1), limit_of(members, &CompareRow::z, 0.5)});
   }
   return limits;
 }

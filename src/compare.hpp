@@ -81,7 +81,7 @@ struct CompareOptions {
 std::vector<PlannedRow> compare_plan(const Scene& scene);
 
 /// A version of the scene that is compared within two minutes: at most 400 grains, one
-/// inertial number, two stiffness levels, two time steps, one tolerance, strain 3.
+/// inertial number, two stiffness levels, two time steps, one tolerance, strain 30.
 Scene shortened(const Scene& scene);
 
 Comparison compare(const Scene& scene, const CompareOptions& options);

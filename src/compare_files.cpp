@@ -19,10 +19,10 @@ std::string series_label(EngineKind engine, const std::optional<double>& inertia
 }
 
 /// One series per state and engine: |deviation from the rigid limit| against cost.
-Figure error_cost_figure(const Comparison& comparison, const std::string& scene) {
+Figure error_cost_figure(const Comparison& comparison) {
   const Judged quantity = judged(comparison);
   Figure figure;
-  figure.title = scene + ": error against cost" + (comparison.shortened ? " (shortened)" : "");
+  figure.title = comparison.shortened ? "Error against cost (shortened comparison)" : "Error against cost";
   figure.x_label = comparison.shear ? "processor seconds per unit strain" : "processor seconds per unit time";
   figure.y_label = fmt::format("|{} - rigid limit|", quantity.name);
   figure.log_x = true;
@@ -42,8 +42,8 @@ Figure error_cost_figure(const Comparison& comparison, const std::string& scene)
   return figure;
 }
 
-Figure history_figure(const Comparison& comparison, const std::string& scene) {
-  Figure figure{scene + ": stress ratio", "strain", "mu*", false, false, {}};
+Figure history_figure(const Comparison& comparison) {
+  Figure figure{"Stress ratio", "strain", "mu*", false, false, {}};
   for (const CompareRow& row : comparison.rows) {
     if (!row.plan.reference || !row.usable()) continue;
     Series series;
@@ -56,8 +56,8 @@ Figure history_figure(const Comparison& comparison, const std::string& scene) {
   return figure;
 }
 
-Figure profile_figure(const Comparison& comparison, const std::string& scene) {
-  Figure figure{scene + ": velocity profile of the last state", "velocity along x", "y", false, false, {}};
+Figure profile_figure(const Comparison& comparison) {
+  Figure figure{"Velocity profile of the last state", "velocity along x", "y", false, false, {}};
   for (const CompareRow& row : comparison.rows) {
     if (row.profile.empty()) continue;
     Series series;
@@ -82,10 +82,10 @@ std::vector<std::string> write_comparison(const Comparison& comparison, const st
   files.push_back(path("compare.csv"));
   write_file(path("compare.json"), compare_json(comparison, scene) + "\n");
   files.push_back(path("compare.json"));
-  add_figure(files, path("error_cost"), error_cost_figure(comparison, scene));
+  add_figure(files, path("error_cost"), error_cost_figure(comparison));
   if (comparison.shear) {
-    add_figure(files, path("mu_star"), history_figure(comparison, scene));
-    add_figure(files, path("velocity_profile"), profile_figure(comparison, scene));
+    add_figure(files, path("mu_star"), history_figure(comparison));
+    add_figure(files, path("velocity_profile"), profile_figure(comparison));
   }
   for (const CompareRow& row : comparison.rows)
     if (row.plan.reference) add_picture(files, path("sample_" + engine_name(row.plan.engine)), row.picture);

@@ -102,7 +102,7 @@ Scene shortened(const Scene& scene) {
   if (!given) brief.grains.count = std::min(scene.grains.count, 400);
   if (scene.loading.kind == LoadingKind::plane_shear) {
     if (scene.loading.pressure) brief.compare.inertial_numbers = {0.1};
-    brief.run.strain = 3;
+    brief.run.strain = 30;
     brief.run.duration.reset();
   }
   if (scene.loading.pressure && has_stiffness(scene)) brief.compare.stiffness_levels = {1e3, 1e4};

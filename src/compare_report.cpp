@@ -79,18 +79,18 @@ std::string sensitivity_text(const StateLimit& state, const Comparison& comparis
 
 std::string cheapest_text(const StateLimit& state, const Comparison& comparison) {
   std::string text;
+  const auto line = [&](const CompareRow* row, const std::string& parameters) {
+    if (!row) return;
+    text += fmt::format("  cheapest {} row within 2 errors of the limit: {} ({} off by {}), {} {}\n",
+                        engine_name(row->plan.engine), parameters, judged(comparison).name,
+                        with_error(*deviation_of(*row, comparison)), short_number(row->cost, 3), cost_unit(comparison));
+  };
   const CompareRow* md = cheapest_within_error(comparison, state, EngineKind::md);
   const CompareRow* cd = cheapest_within_error(comparison, state, EngineKind::cd);
-  if (md)
-    text += fmt::format("  cheapest md row within 2 errors of the limit: kappa = {}, {} {}\n",
-                        short_number(md->plan.stiffness_level.value_or(md->stiffness_level)), short_number(md->cost, 3),
-                        cost_unit(comparison));
-  if (cd)
-    text += fmt::format("  cheapest cd row within 2 errors of the limit: dt = {}, tolerance {}, {} {}\n",
-                        short_number(cd->dt, 3), optional_number(cd->plan.tolerance), short_number(cd->cost, 3),
-                        cost_unit(comparison));
+  if (md) line(md, "kappa = " + short_number(md->plan.stiffness_level.value_or(md->stiffness_level)));
+  if (cd) line(cd, fmt::format("dt = {}, tolerance {}", short_number(cd->dt, 3), optional_number(cd->plan.tolerance)));
   if (md && cd && md->cost > 0 && cd->cost > 0)
-    text += fmt::format("  cost at that error: {} is {:.1f} times cheaper\n", md->cost < cd->cost ? "md" : "cd",
+    text += fmt::format("  of these two, {} is {:.1f} times cheaper\n", md->cost < cd->cost ? "md" : "cd",
                         std::max(md->cost, cd->cost) / std::min(md->cost, cd->cost));
   return text;
 }

@@ -7,7 +7,7 @@
 
 namespace galet {
 
-/// Equilibrium: kinetic energy per grain below this times P d^D (and stress within 1 %, see equilibrium.hpp).
+/// Equilibrium: kinetic energy per grain of the backbone below this times P d^D, and more (see equilibrium.hpp).
 inline constexpr double compression_equilibrium = 1e-6;
 /// The stage takes this many inertial times sqrt(m / (P d^(D-2))) at most.
 inline constexpr double compression_limit = 1000;
@@ -18,7 +18,7 @@ inline constexpr double compression_stress_limit = 0.1;
 struct CompressionReport {
   double time = 0;
   long steps = 0;
-  double kinetic_per_grain = 0;  ///< at its end
+  double kinetic_per_grain = 0;  ///< at its end, rattlers included
   double pressure = 0;           ///< mean normal stress at its end
   double solid_fraction = 0;
   double z = 0;

@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "common/core/error.hpp"
+#include "common/measure/coordination.hpp"
 
 namespace galet {
 
 namespace {
+
+constexpr double largest_rattler_fraction = 0.5;
 
 template <int D>
 Mat<D> stress_of(const Measurement& sample) {
@@ -30,15 +33,34 @@ EquilibriumTest<D>::EquilibriumTest(const Scene& scene, const Derived& derived, 
                                     double threshold) {
   if (!derived.pressure) throw InputError("run.equilibrium needs loading.pressure: it is measured against P d^D");
   pressure_ = *derived.pressure;
-  largest_energy_ = threshold * pressure_ * std::pow(derived.grains.mean_diameter, D);
-  grains_ = sample.count();
+  energy_unit_ = pressure_ * std::pow(derived.grains.mean_diameter, D);
+  threshold_ = threshold;
+  friction_ = derived.layout.friction;
   for (const CellMode<D>& mode : cell_modes(scene, derived, sample))
     if (mode.stress_driven) held_.push_back(mode);
 }
 
 template <int D>
-bool EquilibriumTest<D>::at_rest(const Measurement& sample) const {
-  return sample[Observable::kinetic_per_grain] + sample[Observable::cell] / grains_ < largest_energy_;
+bool EquilibriumTest<D>::reached(const Measurement& sample, const Snapshot<D>& snapshot) const {
+  // The cheap conditions first: few samples get as far as the search for rattlers.
+  return balanced(sample) && sample[Observable::rattler_fraction] <= largest_rattler_fraction &&
+         sample[Observable::cell] / snapshot.grains() < threshold_ * energy_unit_ &&
+         backbone_energy(snapshot) < threshold_;
+}
+
+template <int D>
+double EquilibriumTest<D>::backbone_energy(const Snapshot<D>& snapshot) const {
+  const std::vector<char> rattles = rattlers(snapshot, friction_);
+  double energy = 0;
+  int grains = 0;
+  for (int i = 0; i < snapshot.grains(); ++i) {
+    if (rattles[i]) continue;
+    const double inertia = inertia_ratio<D> * snapshot.mass[i] * snapshot.radius[i] * snapshot.radius[i];
+    energy += 0.5 * snapshot.mass[i] * snapshot.velocity[i].squaredNorm();
+    if (!snapshot.spin.empty()) energy += 0.5 * inertia * squared(snapshot.spin[i]);
+    ++grains;
+  }
+  return grains > 0 ? energy / (grains * energy_unit_) : 0;
 }
 
 template <int D>

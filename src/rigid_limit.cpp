@@ -109,9 +109,9 @@ LineFit fit_line(std::span<const LinePoint> points) {
   return fit;
 }
 
-std::optional<EngineLimit> md_limit(std::span<const MdRun> runs) {
+std::optional<EngineLimit> md_limit(std::span<const MdRun> runs, double power) {
   std::vector<LinePoint> points;
-  for (const MdRun& run : finite_runs(runs)) points.push_back({1 / run.stiffness_level, run.value});
+  for (const MdRun& run : finite_runs(runs)) points.push_back({std::pow(run.stiffness_level, -power), run.value});
   if (points.empty()) return std::nullopt;
   const LineFit fit = fit_line(points);
   return EngineLimit{fit.intercept, fit.slope, 0, static_cast<int>(points.size())};
@@ -134,8 +134,8 @@ std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs) {
   return limit;
 }
 
-RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd) {
-  RigidLimit limit{md_limit(md), cd_limit(cd), {}, {}, {}};
+RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd, double power) {
+  RigidLimit limit{md_limit(md, power), cd_limit(cd), {}, {}, {}};
   if (!limit.md && !limit.cd) {
     limit.combined.value = std::numeric_limits<double>::quiet_NaN();
   } else if (limit.md && limit.cd) {

@@ -1,7 +1,8 @@
 // The rigid limit of a quantity q (mu*, Phi, z), from runs of both engines at finite numerical parameters.
-//   md   q = q_md + slope / kappa, least squares with weights 1/error^2; the limit is kappa -> infinity. The mean
-//        deflection is h/d ~ 1/kappa (chapter, sec. anadim): the line is the leading order of what is smooth in h.
-//        Limit: z grows faster than h near jamming, so that few, soft levels overestimate its limit.
+//   md   q = q_md + slope kappa^-power, least squares with weights 1/error^2; the limit is kappa -> infinity. The mean
+//        deflection is h/d ~ 1/kappa (chapter, sec. anadim): power 1 is the leading order of what is smooth in h (mu*,
+//        Phi). The coordination number is not: a collision counts as a contact for its duration, which goes as
+//        kappa^-1/2, and near jamming the excess contacts go as sqrt(h). For z the power is 1/2.
 //   cd   q = q_cd + slope * dt, from the rows with the tightest tolerance; the limit is dt -> 0 (the time stepping is
 //        of first order). The tolerance has no known law: a second tolerance gives its own limit q', and
 //        systematic^2 = max(0, (q_cd - q')^2 - (error^2 + error'^2)): what noise doesn't explain of the difference.
@@ -48,13 +49,13 @@ struct CdRun {
 /// The limit that one engine's runs tend to.
 struct EngineLimit {
   Estimate value;         ///< error: statistical and systematic parts together
-  Estimate slope;         ///< per 1/kappa (md) or per dt (cd)
+  Estimate slope;         ///< per kappa^-power (md) or per dt (cd)
   double systematic = 0;  ///< cd: part of the error that comes from the tolerance
   int runs = 0;           ///< in the fit; 1: not extrapolated
 };
 
-/// None without runs.
-std::optional<EngineLimit> md_limit(std::span<const MdRun> runs);
+/// None without runs. `power`: see above.
+std::optional<EngineLimit> md_limit(std::span<const MdRun> runs, double power = 1);
 std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs);
 
 struct RigidLimit {
@@ -65,7 +66,7 @@ struct RigidLimit {
 };
 
 /// Runs whose value is not finite are left out; without any run the combined limit is NaN.
-RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd);
+RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd, double power = 1);
 
 /// Deviation of one run from the rigid limit, with the error of the difference (the two are taken as independent).
 Estimate deviation(const Estimate& value, const Estimate& limit);

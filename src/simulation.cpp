@@ -108,6 +108,7 @@ Archive Simulation<D>::checkpoint() const {
   series_.save(archive);
   row_.save(archive);
   archive.reals["run.last"].assign(last_.values.begin(), last_.values.end());
+  archive.integers["run.settled"] = {settled_};
   archive.reals["run.seconds"] = {cpu_seconds_, wall_seconds_};
   return archive;
 }
@@ -115,6 +116,9 @@ Archive Simulation<D>::checkpoint() const {
 template <int D>
 void Simulation<D>::restore(const Archive& archive) {
   engine_->restore(archive);
+  if (engine_->steps() > total_steps_)
+    throw InputError(fmt::format("the checkpoint is at time {:g}, beyond the end of the run at {:g}: lengthen run.{}",
+                                 engine_->time(), derived_.duration, scene_.run.strain ? "strain" : "duration"));
   compression_report_ = stored_report(archive);
   schedule_.restore(archive);
   samples_ = schedule_.samples_until(engine_->steps());
@@ -122,6 +126,7 @@ void Simulation<D>::restore(const Archive& archive) {
   row_.restore(archive);
   const auto& last = real_column(archive, "run.last");
   std::copy_n(last.begin(), std::min<std::size_t>(last.size(), observable_count), last_.values.begin());
+  settled_ = integer_column(archive, "run.settled").at(0);
   const auto& seconds = real_column(archive, "run.seconds");
   cpu_seconds_ = seconds.at(0), wall_seconds_ = seconds.at(1);
 }
@@ -234,7 +239,7 @@ void Simulation<D>::take_steps(long count) {
   cpu_seconds_ += thread_seconds() - cpu;
 }
 
-/// True when the sample shows the equilibrium that the scene asks for.
+/// True when the samples have shown, for one inertial time, the equilibrium that the scene asks for.
 template <int D>
 bool Simulation<D>::take_sample(Pace& pace) {
   last_ = measure(*engine_, scale_);
@@ -244,7 +249,10 @@ bool Simulation<D>::take_sample(Pace& pace) {
     series_.rows.push_back(row_.finish(scale_));
     if (pace.copy_due()) last_good_ = checkpoint();
   }
-  return equilibrium_ && equilibrium_->reached(last_);
+  if (!equilibrium_) return false;
+  settled_ = equilibrium_->reached(last_, engine_->snapshot()) ? settled_ + 1 : 0;
+  const double interval = schedule_.steps_per_sample * engine_->dt();
+  return static_cast<double>(settled_) * interval >= *derived_.inertial_time;
 }
 
 // ---- What is handed back ----
@@ -281,21 +289,22 @@ void Simulation<D>::report(RunResult& result) const {
 template <int D>
 std::optional<std::string> Simulation<D>::compression_note() const {
   if (!compression_report_ || compression_report_->equilibrium) return std::nullopt;
-  const double energy = compression_report_->kinetic_per_grain / *derived_.pressure;
   return fmt::format(
       "the compression stopped at its limit of {:g} inertial times, short of equilibrium: kinetic energy per grain "
-      "{:.2g} P d^D, mean stress {:.4g}",
-      compression_limit, energy / std::pow(derived_.grains.mean_diameter, D), compression_report_->pressure);
+      "{:.2g}, mean stress {:.4g}",
+      compression_limit, compression_report_->kinetic_per_grain, compression_report_->pressure);
 }
 
 template <int D>
 void Simulation<D>::add_notes(RunResult& result) const {
   if (const auto note = compression_note()) result.notes.push_back(*note);
   if (equilibrium_ && result.ending == Ending::finished)
-    result.notes.push_back(fmt::format(
-        "the run ended before equilibrium: kinetic energy per grain {:.3g} (asked: below {:.3g}), stress {}",
-        last_[Observable::kinetic_per_grain], equilibrium_->largest_energy(),
-        equilibrium_->balanced(last_) ? "within 1 %" : "off by more than 1 %"));
+    result.notes.push_back(
+        fmt::format("the run ended before equilibrium: kinetic energy per grain of the backbone {:.2g} P d^D (asked: "
+                    "below {:.2g}), "
+                    "stress {}",
+                    equilibrium_->backbone_energy(engine_->snapshot()), *scene_.run.equilibrium,
+                    equilibrium_->balanced(last_) ? "within 1 %" : "off by more than 1 %"));
   if (result.solver.missed > 0)
     result.notes.push_back(
         fmt::format("the contact solver missed its tolerance in {} of {} steps (worst residual {:.2g}): raise "

@@ -89,6 +89,7 @@ class Simulation {
   Schedule schedule_;
   long total_steps_ = 0;
   long samples_ = 0;
+  long settled_ = 0;  ///< of the latest samples, how many in a row showed equilibrium
   RowAverager row_;
   TimeSeries series_;
   Measurement last_;

@@ -8,21 +8,13 @@
 #include <numeric>
 
 #include "common/core/error.hpp"
+#include "common/scene/packing.hpp"
 
 namespace galet {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-/// d as the scene defines it; from the grains themselves when they were given one by one.
-double mean_diameter(const Scene& scene, const std::vector<double>& radius) {
-  const SizeDistribution& sizes = scene.grains.diameter;
-  const bool drawn = scene.initial.kind != InitialKind::listed && scene.initial.kind != InitialKind::packing;
-  if (!drawn) return 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
-  if (sizes.kind != SizeKind::discrete) return sizes.mean;
-  return std::inner_product(sizes.diameters.begin(), sizes.diameters.end(), sizes.fractions.begin(), 0.0);
-}
 
 /// Stability bound of the md step. Elastic part: the stiffest mode of a packing has
 /// omega^2 <= 1.15 z K_N / m_least * max(1, (K_T/K_N) (1 + m R^2/I)), z the largest number of neighbours of the

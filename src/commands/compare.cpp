@@ -75,8 +75,8 @@ void add_compare(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_flag("--short", arguments->brief,
-                    "a shortened comparison in about two minutes: at most 400 grains, I = 0.1, kappa = 1e3 and 1e4, "
-                    "cd.dt_factor = 0.02 and 0.01, cd.tolerance = 1e-3, strain 3");
+                    "a shortened comparison, a minute or two: at most 400 grains, I = 0.1, kappa = 1e3 and 1e4, "
+                    "cd.dt_factor = 0.02 and 0.01, cd.tolerance = 1e-3, strain 30");
   command->add_option("--out", arguments->out, "folder for tables and pictures (default: out/<scene name>)");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([&action, arguments] { action = [arguments] { return compare_engines(*arguments); }; });

@@ -128,15 +128,16 @@ TEST(ObliqueCd, OppositeSpinsWithoutSlipAreLeftAlone) {
   for (int i = 0; i < 2; ++i) EXPECT_LT((after.spin[i] - sample.spin[i]).norm(), 1e-12);
 }
 
-/// md: an impact that slides throughout. The tangential spring breaks at once, since K_T v_t > mu K_N v_n, and
-/// never recovers, since v_t is three times the slip that sticking could stop.
+/// md: an impact that slides throughout: v_t is 30 times the slip that sticking could stop, and the tangential spring
+/// reaches the bound at once. (`elastic`: K_T v_t > mu K_N v_n. `total`: F_N starts at alpha v_n, so the spring needs a
+/// time mu alpha v_n / (K_T v_t) to load, which costs half of that time's impulse, up to 0.7 % of mu J_n.)
 template <int D>
 void check_soft_sliding(double e, DampingConvention convention) {
   SCOPED_TRACE(to_string(convention) + " e = " + std::to_string(e));
   const Vec<D> n = -up<D>();
   const Vec<D> t = generic_tangent<D>(n);
   const double v_n = 0.1, k = inertia_ratio<D>;
-  const double v_t = 3 * friction * (1 + e) * (1 + 1 / k) * v_n;
+  const double v_t = 30 * friction * (1 + e) * (1 + 1 / k) * v_n;
   Sample<D> sample = ball_on_plane<D>(up<D>(), 1e-6);
   sample.velocity[0] = v_n * n + v_t * t;
   Scene scene = free_scene(D, friction, e, 1e6);  // deflection 1e-4: lever arms change by 2e-4
@@ -149,14 +150,15 @@ void check_soft_sliding(double e, DampingConvention convention) {
   const double normal_impulse = -gain.dot(n);
   // A damping force that jumps at opening or closing counts for half a step too much or too little: the same
   // first-order error as that of the restitution (see collision_test.cpp), relative to J_n.
-  const double damped = 2 * damping_of_restitution(e, convention) * std::sqrt(1e6) * engine->dt();
-  const double tolerance = (damped + 5e-3) * normal_impulse;
+  // The rest, 1 %, is for that loading and for second-order terms.
+  const double error = 2 * damping_of_restitution(e, convention) * std::sqrt(1e6) * engine->dt() + 1e-2;
+  const double tolerance = error * normal_impulse;
   EXPECT_NEAR(normal_impulse, (1 + e) * v_n, tolerance);
   EXPECT_NEAR(-gain.dot(t), friction * normal_impulse, friction * tolerance);
   EXPECT_LT((gain - gain.dot(n) * n - gain.dot(t) * t).norm(), 1e-12);
   // The torque is the lever arm (R, up to the deflection) times the tangential impulse.
   const double spin_gain = friction * normal_impulse * 0.5 / (k * 0.25);
-  EXPECT_NEAR(spin_norm(after.spin[0]), spin_gain, spin_gain * (damped + 5e-3));
+  EXPECT_NEAR(spin_norm(after.spin[0]), spin_gain, spin_gain * error);
   EXPECT_GT((after.velocity[0] + cross(after.spin[0], Vec<D>(0.5 * n))).dot(t), 0);
 }
 

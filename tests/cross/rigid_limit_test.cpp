@@ -48,6 +48,7 @@ std::array<double, 3> distances(const Scene& scene, const Sample<2>& sample, dou
 /// for what a contact of finite duration does beyond the leading term.
 void expect_convergence(const std::array<double, 3>& distance, double last) {
   SCOPED_TRACE(std::to_string(distance[0]) + " " + std::to_string(distance[1]) + " " + std::to_string(distance[2]));
+  EXPECT_GT(distance[0], 1e-4);  // or nothing was compared
   EXPECT_LT(distance[1], distance[0]);
   EXPECT_LT(distance[2], distance[1]);
   EXPECT_LT(distance[2], distance[0] / 5);
@@ -68,9 +69,9 @@ TEST(RigidLimit, CascadeOfThreeBallsWithGaps) {
 TEST(RigidLimit, ObliqueImpactSlidingThroughout) {
   // Slip 3 times what sticking could stop: the impulses are (1 + e) m* v_n and mu times that in both engines, and
   // what differs is that the normal turns by v_t t_c / d while soft grains touch.
-  Sample<2> sample = pair_sample<2>(generic_direction<2>(), 0.05, {0.5, 0.4}, {1, 0.7});
+  Sample<2> sample = pair_sample<2>(generic_direction<2>(), 0.02, {0.5, 0.4}, {1, 0.7});
   const Vec<2> n = generic_direction<2>();
-  set_relative_velocity<2>(sample, Vec<2>(-0.5 * n + 1.5 * generic_tangent<2>(n)));
+  set_relative_velocity<2>(sample, Vec<2>(-n + 1.5 * generic_tangent<2>(n)));
   sample.spin[0] = -1;
   const Scene scene = free_scene(2, 0.1, 0.6, 1);
   expect_convergence(distances(scene, sample, 0.4), 0.05);

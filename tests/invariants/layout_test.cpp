@@ -7,6 +7,18 @@ namespace galet::test {
 namespace {
 
 template <int D>
+void expect_same(const Snapshot<D>& small, const Snapshot<D>& large, double tolerance) {
+  EXPECT_LT(largest_difference<D>(small.velocity, large.velocity), tolerance);
+  EXPECT_LT(largest_difference<D>(small.position, large.position), tolerance);
+  ASSERT_EQ(small.contacts->size(), large.contacts->size());
+  for (std::size_t c = 0; c < small.contacts->size(); ++c) {
+    const Vec<D> a = small.contacts->force[c], b = large.contacts->force[c], n = large.contacts->normal[c];
+    EXPECT_NEAR(a.dot(n), b.dot(n), 1e3 * tolerance);  // K or m / dt times an error in positions or velocities
+    EXPECT_LT((b - b.dot(n) * n).norm(), 1e-12 * b.norm());  // mu = 0: along the normal that is shown with it
+  }
+}
+
+template <int D>
 void check(EngineKind kind, double pressure) {
   SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + " pressure " + std::to_string(pressure));
   Scene scene = sheared_scene<D>(0.5, pressure);
@@ -19,22 +31,20 @@ void check(EngineKind kind, double pressure) {
   const auto large = make_engine<D>(kind, scene, sample, true);
   EXPECT_EQ(small->layout(), (Layout{D, false}));
   EXPECT_EQ(large->layout(), (Layout{D, true}));
-  small->advance(300);
-  large->advance(300);
-  const Snapshot<D> a = small->snapshot(), b = large->snapshot();
-  EXPECT_TRUE(a.spin.empty());
-  // Rounding (the tangential part adds zeros, but sums may be ordered differently) amplified by a few collisions;
-  // cd stops its sweeps at 1e-12, by a residual that has more components in one of the layouts.
-  const double tolerance = kind == EngineKind::cd ? 1e-8 : 1e-9;
-  EXPECT_LT(largest_difference<D>(a.velocity, b.velocity), tolerance);
-  EXPECT_LT(largest_difference<D>(a.position, b.position), tolerance);
-  EXPECT_GT(largest_difference<D>(a.velocity, sample.velocity), 0.5);  // something happened
-  ASSERT_GT(a.contacts->size(), 0u);
-  ASSERT_EQ(a.contacts->size(), b.contacts->size());
-  for (std::size_t c = 0; c < a.contacts->size(); ++c)
-    EXPECT_LT((a.contacts->force[c] - b.contacts->force[c]).norm(), 1e3 * tolerance);  // K or m / dt times positions
-  // Without friction nothing turns a grain.
-  for (int i = 0; i < b.grains(); ++i) EXPECT_EQ(spin_norm(b.spin[i] - sample.spin[i]), 0) << i;
+  std::size_t contacts = 0;
+  for (int look = 0; look < 30; ++look) {
+    small->advance(10);
+    large->advance(10);
+    EXPECT_TRUE(small->snapshot().spin.empty());
+    // Rounding (the tangential part adds zeros, but sums may be ordered differently) amplified by a few collisions;
+    // cd: stops its sweeps at 1e-12, by a residual that has more components in one of the layouts.
+    expect_same<D>(small->snapshot(), large->snapshot(), kind == EngineKind::cd ? 1e-8 : 1e-9);
+    contacts += small->snapshot().contacts->size();
+  }
+  EXPECT_GT(contacts, 20u);  // something happened
+  // Without friction nothing turns a grain. (cd solves for R w: 300 conversions to and fro.)
+  for (int i = 0; i < sample.count(); ++i)
+    EXPECT_LT(spin_norm(large->snapshot().spin[i] - sample.spin[i]), 1e-13) << i;
 }
 
 TEST(Layout, LargerLayoutGivesTheSameResult) {

@@ -1,7 +1,9 @@
 // The deformable periodic cell: the same motion, described in another way, must come out the same.
 //
 // Short runs of a sheared sample. Rounding differs between descriptions (1e-15) and grows by a factor of about
-// 10 with each collision of a grain; in these runs a grain collides a few times.
+// 10 with each collision of a grain; in these runs a grain collides a few times. In cd a gap that an impact closes
+// within its step enters as g / dt, which turns rounding of positions into 1e-12 of velocity, again at each such
+// impact; measured: up to 5e-8. A wrong image or a wrong velocity of the flow would show as 0.1 and more.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,7 +14,6 @@ namespace galet::test {
 namespace {
 
 constexpr double rate = 0.5;
-constexpr double amplified_rounding = 1e-9;
 
 template <int D>
 struct End {
@@ -48,10 +49,11 @@ void expect_same(const Snapshot<D>& a, const Snapshot<D>& b, const Vec<D>& veloc
     velocity = std::max(velocity, (b.velocity[i] - a.velocity[i] - velocity_shift).norm());
     spin = std::max(spin, spin_norm(a.spin[i] - b.spin[i]));
   }
-  EXPECT_LT(position, amplified_rounding);
-  EXPECT_LT(velocity, amplified_rounding);
-  EXPECT_LT(spin, amplified_rounding);
-  EXPECT_NEAR(a.cell->volume(), b.cell->volume(), amplified_rounding * a.cell->volume());
+  const double tolerance = a.engine == "md" ? 1e-9 : 1e-6;
+  EXPECT_LT(position, tolerance);
+  EXPECT_LT(velocity, tolerance);
+  EXPECT_LT(spin, tolerance);
+  EXPECT_NEAR(a.cell->volume(), b.cell->volume(), tolerance * a.cell->volume());
 }
 
 /// The run must have seen contacts, or the comparison says nothing.
@@ -68,6 +70,7 @@ void for_all(Check check) {
     for (double pressure : {0.0, 1.0}) {
       SCOPED_TRACE(to_string(kind) + " pressure " + std::to_string(pressure));
       check.template operator()<2>(kind, pressure);
+      SCOPED_TRACE("3D");
       check.template operator()<3>(kind, pressure);
     }
 }

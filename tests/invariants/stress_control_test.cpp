@@ -102,7 +102,7 @@ Packing compress(EngineKind kind, double inertia_factor) {
   scene.cell.inertia_factor = inertia_factor;
   scene.cd.dt = 0.01;
   scene.cd.tolerance = 1e-3;
-  Sample<2> sample = gas_sample<2>(10, 0.6, 0.2, 31, 0.5);
+  Sample<2> sample = gas_sample<2>(10, 0.54, 0.2, 31, 0.5);
   const auto engine = make_engine<2>(kind, scene, sample);
   engine->advance(std::lround(36 / engine->dt()));
   Packing packing{0, 0};
@@ -140,7 +140,7 @@ TEST(StressControl, BiaxialCompressionHoldsTheLateralStress) {
     scene.loading.drives = {{"xx", std::nullopt, pressure}, {"yy", -0.01, std::nullopt}};
     scene.cd.dt = 0.01;
     scene.cd.tolerance = 1e-3;
-    const auto engine = make_engine<2>(kind, scene, gas_sample<2>(8, 0.75, 0.2, 33, 0.2));
+    const auto engine = make_engine<2>(kind, scene, gas_sample<2>(8, 0.54, 0.2, 33, 0.2));
     const double height = engine->snapshot().cell->box(1, 1);
     double lateral = 0, axial = 0;
     engine->advance(std::lround(25 / engine->dt()));

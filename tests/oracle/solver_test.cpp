@@ -10,6 +10,25 @@
 namespace galet::cd {
 namespace {
 
+template <Layout Y>
+Iterate<Y> random_start(const Problem<Y>& problem, std::uint64_t seed) {
+  constexpr int D = Y.dim;
+  RandomStream stream(seed, 2);
+  Iterate<Y> start;
+  for (std::size_t b = 0; b < problem.inverse_mass.size(); ++b) {
+    Vec<D> v;
+    for (int a = 0; a < D; ++a) v[a] = stream.normal();
+    start.velocity.push_back(v);
+    if constexpr (Y.friction) start.spin.push_back(zero_spin<D>());
+  }
+  for (const HubMode<D>& mode : problem.hub) {
+    start.hub_rate.push_back(stream.normal());
+    start.gradient += start.hub_rate.back() * mode.direction;
+  }
+  start.reaction.assign(problem.size(), Reaction<Y>::Zero());
+  return start;
+}
+
 /// A random problem: `bodies` grains, contacts between random pairs with random normals, and one hub mode.
 template <Layout Y>
 Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64_t seed, bool hub) {
@@ -31,7 +50,6 @@ Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64
     for (int a = 0; a < D; ++a) n[a] = stream.normal();
     problem.normal[k] = n.normalized();
     problem.distance[k] = 1;
-    problem.offset[k] = stream.uniform(-0.5, 0.5);
     const double masses = problem.inverse_mass[problem.i[k]] + problem.inverse_mass[problem.j[k]];
     problem.wn[k] = masses + (hub ? 0.3 : 0);
     problem.inverse_wn[k] = 1 / problem.wn[k];
@@ -41,28 +59,14 @@ Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64
                                                            problem.inverse_inertia[problem.j[k]]));
     }
   }
+  // A motion that satisfies every constraint exists, so that the problem has a solution.
+  Iterate<Y> feasible = random_start<Y>(problem, seed + 1000);
+  for (int k = 0; k < contacts; ++k)
+    problem.offset[k] = stream.uniform(0, 0.5) -
+                        problem.normal[k].dot(relative_velocity(problem, feasible, feasible.gradient, k));
   // One colour per contact: bodies are shared at will.
   for (int k = 0; k <= contacts; ++k) problem.group.push_back(k);
   return problem;
-}
-
-template <Layout Y>
-Iterate<Y> random_start(const Problem<Y>& problem, std::uint64_t seed) {
-  constexpr int D = Y.dim;
-  RandomStream stream(seed, 2);
-  Iterate<Y> start;
-  for (std::size_t b = 0; b < problem.inverse_mass.size(); ++b) {
-    Vec<D> v;
-    for (int a = 0; a < D; ++a) v[a] = stream.normal();
-    start.velocity.push_back(v);
-    if constexpr (Y.friction) start.spin.push_back(zero_spin<D>());
-  }
-  for (const HubMode<D>& mode : problem.hub) {
-    start.hub_rate.push_back(stream.normal());
-    start.gradient += start.hub_rate.back() * mode.direction;
-  }
-  start.reaction.assign(problem.size(), Reaction<Y>::Zero());
-  return start;
 }
 
 /// W and q of the frictionless problem by the definition: unit impulses one at a time.

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -200,7 +201,9 @@ Sample<D> lattice_sample(int side, double spacing) {
 /// A gas: grains of diameters 1 +- spread on a loose lattice, with random velocities and spins.
 template <int D>
 Sample<D> gas_sample(int side, double solid_fraction, double spread, std::uint64_t seed, double speed = 1) {
-  Sample<D> sample = lattice_sample<D>(side, std::pow(grain_volume<D>(1.0) / solid_fraction, 1.0 / D));
+  const double spacing = std::pow(grain_volume<D>(1.0) / solid_fraction, 1.0 / D);
+  if (spacing < 1 + spread) throw std::invalid_argument("a gas as dense as this starts with overlaps");
+  Sample<D> sample = lattice_sample<D>(side, spacing);
   vary_sizes<D>(sample, spread, seed);
   shake<D>(sample, speed, seed, speed);
   return sample;

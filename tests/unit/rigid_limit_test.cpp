@@ -54,6 +54,14 @@ TEST(FitLine, UnknownErrorsFollowFromTheScatter) {
 
 TEST(FitLine, NeedsAPoint) { EXPECT_THROW(fit_line({}), std::invalid_argument); }
 
+TEST(RigidLimit, CoordinationGoesWithTheRootOfKappa) {
+  // z = 1.2 + 30 kappa^-1/2 exactly: the line in kappa^-1/2 finds 1.2, the line in 1/kappa does not.
+  std::vector<MdRun> runs;
+  for (const double kappa : {1e3, 1e4, 1e5}) runs.push_back({kappa, {1.2 + 30 / std::sqrt(kappa), 0.01}});
+  EXPECT_NEAR(md_limit(runs, 0.5)->value.value, 1.2, 1e-12);
+  EXPECT_GT(md_limit(runs, 1)->value.value, 1.3);
+}
+
 TEST(MdLimit, ExtrapolatesInInverseStiffness) {
   const auto limit = md_limit(std::vector<MdRun>{{1e3, {0.40 + 5e-3, 1e-3}}, {1e4, {0.40 + 5e-4, 1e-3}}});
   ASSERT_TRUE(limit);
