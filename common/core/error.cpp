@@ -12,12 +12,9 @@ std::string to_string(const Mistake& mistake) {
 
 namespace {
 std::string join(const std::vector<Mistake>& mistakes) {
-  std::string all;
-  for (const Mistake& mistake : mistakes) {
-    if (!all.empty()) all += '\n';
-    all += to_string(mistake);
-  }
-  return all;
+  std::vector<std::string> lines;
+  for (const Mistake& mistake : mistakes) lines.push_back(to_string(mistake));
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 }  // namespace
 

@@ -6,15 +6,24 @@
 namespace galet::test {
 namespace {
 
+/// Largest differences between the layouts over the looks at a run.
+struct Differences {
+  double velocity = 0, position = 0;
+  double normal_force = 0;
+  double tangential_share = 0;  ///< of the force in the larger layout
+  std::size_t contacts = 0;     ///< compared in all
+};
+
 template <int D>
-void expect_same(const Snapshot<D>& small, const Snapshot<D>& large, double tolerance) {
-  EXPECT_LT(largest_difference<D>(small.velocity, large.velocity), tolerance);
-  EXPECT_LT(largest_difference<D>(small.position, large.position), tolerance);
+void compare(const Snapshot<D>& small, const Snapshot<D>& large, Differences& most) {
+  most.velocity = std::max(most.velocity, largest_difference<D>(small.velocity, large.velocity));
+  most.position = std::max(most.position, largest_difference<D>(small.position, large.position));
   ASSERT_EQ(small.contacts->size(), large.contacts->size());
   for (std::size_t c = 0; c < small.contacts->size(); ++c) {
     const Vec<D> a = small.contacts->force[c], b = large.contacts->force[c], n = large.contacts->normal[c];
-    EXPECT_NEAR(a.dot(n), b.dot(n), 1e3 * tolerance);  // K or m / dt times an error in positions or velocities
-    EXPECT_LT((b - b.dot(n) * n).norm(), 1e-12 * b.norm());  // mu = 0: along the normal that is shown with it
+    most.normal_force = std::max(most.normal_force, std::abs(a.dot(n) - b.dot(n)));
+    most.tangential_share = std::max(most.tangential_share, (b - b.dot(n) * n).norm() / b.norm());
+    ++most.contacts;
   }
 }
 
@@ -31,17 +40,21 @@ void check(EngineKind kind, double pressure) {
   const auto large = make_engine<D>(kind, scene, sample, true);
   EXPECT_EQ(small->layout(), (Layout{D, false}));
   EXPECT_EQ(large->layout(), (Layout{D, true}));
-  std::size_t contacts = 0;
+  Differences most;
   for (int look = 0; look < 30; ++look) {
     small->advance(10);
     large->advance(10);
     EXPECT_TRUE(small->snapshot().spin.empty());
-    // Rounding (the tangential part adds zeros, but sums may be ordered differently) amplified by a few collisions;
-    // cd: stops its sweeps at 1e-12, by a residual that has more components in one of the layouts.
-    expect_same<D>(small->snapshot(), large->snapshot(), kind == EngineKind::cd ? 1e-8 : 1e-9);
-    contacts += small->snapshot().contacts->size();
+    compare<D>(small->snapshot(), large->snapshot(), most);
   }
-  EXPECT_GT(contacts, 20u);  // something happened
+  EXPECT_GT(most.contacts, 10u);  // something happened
+  // Rounding (the tangential part adds zeros, but sums may be ordered differently) amplified by a few collisions; cd
+  // stops its sweeps at 1e-12, by a residual that has more components in one of the layouts.
+  const double tolerance = kind == EngineKind::cd ? 1e-8 : 1e-9;
+  EXPECT_LT(most.velocity, tolerance);
+  EXPECT_LT(most.position, tolerance);
+  EXPECT_LT(most.normal_force, 1e3 * tolerance);  // K or m / dt times an error in positions or velocities
+  EXPECT_LT(most.tangential_share, 1e-12);        // mu = 0: the force is along the normal that is shown with it
   // Without friction nothing turns a grain. (cd solves for R w: 300 conversions to and fro.)
   for (int i = 0; i < sample.count(); ++i)
     EXPECT_LT(spin_norm(large->snapshot().spin[i] - sample.spin[i]), 1e-13) << i;

@@ -268,6 +268,7 @@ void check_origin() {
   // by their branch vectors, which only the strain changes.
   Mat<D> strain = Mat<D>::Identity();
   strain(0, 1) = 0.2;
+  sample.cell.rate(0, 1) = 1;  // the flow that does it: cells are mended along the flow
   sample.cell.box = strain * sample.cell.box;
   for (Vec<D>& x : sample.position) x = strain * x + sample.cell.box * Vec<D>::Constant(0.61);
   list.build(sample.position, sample.radius, sample.cell, sample.planes);

@@ -235,10 +235,10 @@ Sample<D> crystal_sample(int cells, double spacing) {
 }
 
 /// A loosened crystal of unequal grains, in quick motion: they collide within a time of 0.1. Solid fraction 0.69 (2D)
-/// or 0.49 (3D): loose enough that rigid grains can be sheared at constant volume.
+/// or 0.49 (3D) by default: loose enough that rigid grains can be sheared at constant volume.
 template <int D>
-Sample<D> sheared_sample(int cells) {
-  Sample<D> sample = crystal_sample<D>(cells, 1.15);
+Sample<D> sheared_sample(int cells, double spacing = 1.15) {
+  Sample<D> sample = crystal_sample<D>(cells, spacing);
   vary_sizes<D>(sample, 0.05, 11);
   shake<D>(sample, 1, 12, 1);
   return sample;

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Makes the committed results again:  benchmarks/run.sh [NAME...]     (default: all; about an hour on two cores)
+#
+#   plane_shear_2d   galet compare scenes/plane_shear_2d.toml: both engines, speed against error
+#   isotropic_3d     both engines on scenes/isotropic_3d.toml
+#   frictionless_2d  both engines on scenes/frictionless_2d.toml
+#   layouts          what each layout costs (Google Benchmark)
+#   solver_sweeps    Gauss-Seidel, plain and with momentum
+#
+# Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
+set -euo pipefail
+root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
+cmake --build --preset release
+bin=build/release
+names=("$@")
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d plane_shear_2d)
+for name in "${names[@]}"; do
+  out=benchmarks/results/$name
+  mkdir -p "$out"
+  echo "== $name"
+  case $name in
+    plane_shear_2d) "$bin/src/galet" compare "scenes/$name.toml" --jobs 2 --out "$out" | tee "$out/table.txt" ;;
+    isotropic_3d | frictionless_2d)
+      for engine in md cd; do
+        "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
+      done ;;
+    layouts) "$bin/benchmarks/layouts" --benchmark_min_time=2 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
+    solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
+    *) echo "no benchmark called $name" >&2; exit 2 ;;
+  esac
+  # Paths of this run say nothing to a reader.
+  sed -i '/^wrote /d' "$out"/*.txt 2>/dev/null || true
+  benchmarks/machine.sh >"$out/machine.txt"
+done
+benchmarks/validation.sh >docs/validation.md
+echo "wrote docs/validation.md"
