@@ -1,9 +1,9 @@
 // Sweeps and time that Gauss-Seidel needs from a cold start, plain and with momentum, on one step of a dense
 // frictional packing at rest under pressure (every contact closed): the hard case of a rigid engine.
 // Prints one CSV row per (dimension, grains, solver, tolerance). Processor time; ratios within one run count.
-#include <fmt/format.h>
-
 #include <ctime>
+
+#include <fmt/format.h>
 
 #include "benchmarks/dense_sample.hpp"
 #include "cd/assembly.hpp"

@@ -5,6 +5,7 @@
 
 #include "cd/laws/restitution.hpp"
 #include "cd/problem.hpp"
+#include "common/core/error.hpp"
 #include "common/core/parallel.hpp"
 #include "common/engine/bodies.hpp"
 #include "common/geometry/contact_frame.hpp"
@@ -91,6 +92,7 @@ class Assembly {
       problem.offset[k] = impact_offset(frame.gap, opening_[row], restitution, dt);
       fill_block(bodies, frame, k, problem);
     }
+    GALET_ENSURE(no_grain_twice(problem, bodies.grains()), "the contacts of a colour share no grain");
   }
 
   const std::vector<int>& row_of() const { return row_of_; }
@@ -98,13 +100,26 @@ class Assembly {
   std::size_t size() const { return frames_.size(); }
 
  private:
+  /// Whether no grain stands twice in a colour (the sequential tail excepted): what threads rely on.
+  static bool no_grain_twice(const Problem<Y>& problem, int grains) {
+    std::vector<int> colour_of(grains, -1);
+    const int colours = static_cast<int>(problem.group.size()) - 1 - (problem.sequential_tail ? 1 : 0);
+    for (int colour = 0; colour < colours; ++colour)
+      for (int k = problem.group[colour]; k < problem.group[colour + 1]; ++k)
+        for (const int grain : {problem.i[k], problem.j[k] == problem.i[k] ? grains : problem.j[k]}) {
+          if (grain >= grains) continue;
+          if (colour_of[grain] == colour) return false;
+          colour_of[grain] = colour;
+        }
+    return true;
+  }
+
   /// Relative velocity of the centres of a pair (of grain and plane), without spins.
   static Vec<D> centre_velocity(const Bodies<Y>& bodies, const PairColumns<D>& pairs, std::size_t row,
                                 const Column<Vec<D>>& velocity) {
     const int i = pairs.i[row], j = pairs.j[row];
     if (j >= bodies.grains()) return bodies.planes[j - bodies.grains()].velocity - velocity[i];
-    const Vec<D> branch =
-        bodies.position[j] - bodies.position[i] + lattice<D>(bodies.cell.box, pairs.image[row]);
+    const Vec<D> branch = bodies.position[j] - bodies.position[i] + lattice<D>(bodies.cell.box, pairs.image[row]);
     return velocity[j] - velocity[i] + bodies.cell.rate * branch;
   }
 
@@ -125,9 +140,9 @@ class Assembly {
       problem.arm_i[k] = frame.stretch * bodies.radius[i];
       problem.arm_j[k] = grain_j ? frame.stretch * bodies.radius[j] : 0;
       const double arm_i = problem.arm_i[k], arm_j = problem.arm_j[k];
-      const double turning = i == j ? (arm_i + arm_j) * (arm_i + arm_j) * problem.inverse_inertia[i]
-                                    : arm_i * arm_i * problem.inverse_inertia[i] +
-                                          arm_j * arm_j * problem.inverse_inertia[j];
+      const double turning =
+          i == j ? (arm_i + arm_j) * (arm_i + arm_j) * problem.inverse_inertia[i]
+                 : arm_i * arm_i * problem.inverse_inertia[i] + arm_j * arm_j * problem.inverse_inertia[j];
       problem.inverse_wt[k] = 1 / (w_n + turning);
     }
   }

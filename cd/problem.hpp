@@ -57,16 +57,16 @@ struct Problem {
   std::vector<HubMode<D>> hub;
 
   // Contacts.
-  double friction = 0;          ///< mu
+  double friction = 0;  ///< mu
   Column<int> i, j;
-  Column<Vec<D>> normal;        ///< n
-  Column<double> distance;      ///< |b|
-  Column<double> offset;        ///< u_N + offset >= 0
-  Column<double> wn, inverse_wn; ///< W_NN and 1 / W_NN (both 0 where nothing can move the contact)
-  Column<double, Y.friction> inverse_wt;     ///< 1 / W_TT
-  Column<double, Y.friction> arm_i, arm_j;   ///< l_i, l_j
-  std::vector<int> group;       ///< contacts group[c] .. group[c + 1] have one colour
-  bool sequential_tail = false; ///< the last group's contacts share bodies
+  Column<Vec<D>> normal;                    ///< n
+  Column<double> distance;                  ///< |b|
+  Column<double> offset;                    ///< u_N + offset >= 0
+  Column<double> wn, inverse_wn;            ///< W_NN and 1 / W_NN (both 0 where nothing can move the contact)
+  Column<double, Y.friction> inverse_wt;    ///< 1 / W_TT
+  Column<double, Y.friction> arm_i, arm_j;  ///< l_i, l_j
+  std::vector<int> group;                   ///< contacts group[c] .. group[c + 1] have one colour
+  bool sequential_tail = false;             ///< the last group's contacts share bodies
 
   std::size_t size() const { return i.size(); }
 
@@ -81,10 +81,10 @@ struct Problem {
 template <Layout Y>
 struct Iterate {
   static constexpr int D = Y.dim;
-  Column<Vec<D>> velocity;              ///< of the bodies, planes included
+  Column<Vec<D>> velocity;  ///< of the bodies, planes included
   Column<Spin<D>, Y.friction> spin;
-  std::vector<double> hub_rate;         ///< of the hub's modes
-  Mat<D> gradient = Mat<D>::Zero();     ///< L: rate-driven part and hub
+  std::vector<double> hub_rate;      ///< of the hub's modes
+  Mat<D> gradient = Mat<D>::Zero();  ///< L: rate-driven part and hub
   Column<Reaction<Y>> reaction;
 };
 

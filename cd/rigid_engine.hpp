@@ -14,9 +14,9 @@
 // parameters.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "cd/assembly.hpp"
 #include "cd/problem.hpp"
@@ -101,7 +101,12 @@ class RigidEngine final : public Engine<Y.dim> {
       refresh_neighbours(4 * dt_ * fastest);
       solve_contacts();
       const double moved = 2 * dt_ * fastest_velocity();
-      if (!list_.expired(bodies_.position, bodies_.cell, bodies_.planes, moved) || attempt == 4) break;
+      // A velocity that is not finite is reported with its grain when velocities are accepted.
+      if (!std::isfinite(moved) || !list_.expired(bodies_.position, bodies_.cell, bodies_.planes, moved)) break;
+      if (attempt == 4)
+        throw RunError(
+            fmt::format("at time {:.6g} grains move by {:.3g} in one step and ever faster: cd.dt is too large", time(),
+                        0.5 * moved));
       fastest = std::max(fastest, fastest_velocity());
     }
     StageTimer timer(profile_, Stage::grains);
@@ -133,8 +138,7 @@ class RigidEngine final : public Engine<Y.dim> {
     const std::size_t grains = bodies_.position.size();
     free_.velocity.resize(grains + bodies_.planes.size());
     for (std::size_t b = 0; b < grains; ++b)
-      free_.velocity[b] =
-          bodies_.velocity[b] + dt_ * (bodies_.gravity - bodies_.cell.rate * bodies_.velocity[b]);
+      free_.velocity[b] = bodies_.velocity[b] + dt_ * (bodies_.gravity - bodies_.cell.rate * bodies_.velocity[b]);
     for (std::size_t p = 0; p < bodies_.planes.size(); ++p) free_.velocity[grains + p] = bodies_.planes[p].velocity;
     if constexpr (Y.friction) {
       free_.spin = bodies_.spin;
@@ -242,7 +246,12 @@ class RigidEngine final : public Engine<Y.dim> {
 
   void store_reactions() {
     history_.assign(list_.size(), Reaction<Y>::Zero());
-    for (std::size_t k = 0; k < problem_.size(); ++k) history_[assembly_.row_of()[k]] = iterate_.reaction[k];
+    for (std::size_t k = 0; k < problem_.size(); ++k) {
+      history_[assembly_.row_of()[k]] = iterate_.reaction[k];
+      GALET_ENSURE(!(problem_.normal[k].dot(impulse_vector<Y>(problem_.normal[k], iterate_.reaction[k])) <
+                     -1e-12 * iterate_.reaction[k].norm()),
+                   "rigid grains do not pull on each other");
+    }
   }
 
   double fastest_velocity() const {

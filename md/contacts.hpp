@@ -16,12 +16,12 @@ struct Contacts {
   static constexpr int D = Y.dim;
   static constexpr bool transported = Y.friction && Y.dim == 3;
 
-  Column<Vec<D>> force;                  ///< F on j; zero when the pair does not touch
+  Column<Vec<D>> force;  ///< F on j; zero when the pair does not touch
   Column<std::uint8_t> touching;
-  Column<double> damping;                ///< alpha of the pair (mass / time)
-  Column<Spin<D>, Y.friction> twist;     ///< |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist
-  Column<Spin<D>, Y.friction> spring;    ///< stored elongation (a scalar in 2D), see laws/tangential_linear.hpp
-  Column<Vec<D>, transported> normal;    ///< n when the spring was last updated
+  Column<double> damping;              ///< alpha of the pair (mass / time)
+  Column<Spin<D>, Y.friction> twist;   ///< |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist
+  Column<Spin<D>, Y.friction> spring;  ///< stored elongation (a scalar in 2D), see laws/tangential_linear.hpp
+  Column<Vec<D>, transported> normal;  ///< n when the spring was last updated
 
   std::size_t size() const { return touching.size(); }
 

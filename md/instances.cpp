@@ -12,8 +12,10 @@ void check_step(const Scene& scene, const Derived& derived) {
   if (!derived.soft)
     throw InputError("the md engine needs a stiffness: give material.stiffness_level or material.normal_stiffness");
   if (*derived.md_dt > *derived.md_dt_stable && !scene.md.allow_unsafe_dt)
-    throw InputError(fmt::format("md.dt = {:.6g} is above the stability bound {:.6g}; choose a smaller step, or set "
-                                 "md.allow_unsafe_dt = true to run all the same", *derived.md_dt, *derived.md_dt_stable));
+    throw InputError(
+        fmt::format("md.dt = {:.6g} is above the stability bound {:.6g}; choose a smaller step, or set "
+                    "md.allow_unsafe_dt = true to run all the same",
+                    *derived.md_dt, *derived.md_dt_stable));
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ class SoftEngine final : public Engine<Y.dim> {
 
   /// Forces, accelerations and the closing half kick. `dt`: time since the last evaluation, 0 at the start.
   void evaluate(double dt) {
-    const PassLaw law{soft_.normal_stiffness, soft_.convention,
-                      {soft_.tangential_stiffness, friction_, 0.5 * dt, 0.5 * dt_}, dt};
+    const PassLaw law{
+        soft_.normal_stiffness, soft_.convention, {soft_.tangential_stiffness, friction_, 0.5 * dt, 0.5 * dt_}, dt};
     Mat<D> virial;
     {
       StageTimer timer(profile_, Stage::contacts);
@@ -123,8 +123,25 @@ class SoftEngine final : public Engine<Y.dim> {
       StageTimer timer(profile_, Stage::grains);
       gather(bodies_, seen_, list_, contacts_, acceleration_, 0.5 * dt);
     }
+    GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
     StageTimer timer(profile_, Stage::drives);
     if (bodies_.stress_driven()) accelerate_modes(virial + kinetic_virial(bodies_, partial_), 0.5 * dt);
+  }
+
+  /// Whether the sum of m (a + L v - gravity) is that of the forces from planes (action and reaction).
+  bool forces_balance() const {
+    Vec<D> sum = Vec<D>::Zero(), from_planes = Vec<D>::Zero();
+    double scale = 1e-300;
+    for (int i = 0; i < bodies_.grains(); ++i)
+      sum += bodies_.mass[i] * (acceleration_.linear[i] + seen_.gradient * seen_.velocity[i] - bodies_.gravity);
+    for (std::size_t row = 0; row < list_.size(); ++row) {
+      scale += contacts_.force[row].norm();
+      if (list_.pairs().j[row] >= bodies_.grains()) from_planes -= contacts_.force[row];
+    }
+    for (int i = 0; i < bodies_.grains(); ++i)
+      scale += bodies_.mass[i] * ((seen_.gradient * seen_.velocity[i]).norm() + bodies_.gravity.norm());
+    // Rounding of sums of this many terms; anything systematic is far above.
+    return !((sum - from_planes).norm() > 1e-10 * scale);
   }
 
   void kick_modes() {

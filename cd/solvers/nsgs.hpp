@@ -157,13 +157,16 @@ class Nsgs {
   /// now += beta (now - before); before = now.
   template <class Values>
   static void move(Values& now, Values& before, double beta) {
-    parallel_ranges(now.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const typename Values::value_type here = now[k];
-        if (beta != 0) now[k] += beta * (here - before[k]);
-        before[k] = here;
-      }
-    }, 4096);
+    parallel_ranges(
+        now.size(),
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t k = begin; k < end; ++k) {
+            const typename Values::value_type here = now[k];
+            if (beta != 0) now[k] += beta * (here - before[k]);
+            before[k] = here;
+          }
+        },
+        4096);
   }
 
   std::size_t block_ = 1;

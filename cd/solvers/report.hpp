@@ -17,7 +17,7 @@ struct SolveReport {
 struct SolverOptions {
   double tolerance = 1e-4;  ///< on the residual; useful range 1e-2 .. 1e-10
   int max_sweeps = 2000;
-  double momentum = 0.9;    ///< largest beta of the momentum step; 0: plain Gauss-Seidel
+  double momentum = 0.9;  ///< largest beta of the momentum step; 0: plain Gauss-Seidel
 };
 
 }  // namespace galet::cd

@@ -46,8 +46,8 @@ inline void require(bool condition, const char* message) {
 }
 
 #ifdef GALET_VALIDATE
-#define GALET_ENSURE(condition, message) \
-  do {                                   \
+#define GALET_ENSURE(condition, message)                                                     \
+  do {                                                                                       \
     if (!(condition)) throw std::logic_error(std::string("broken invariant: ") + (message)); \
   } while (false)
 #else

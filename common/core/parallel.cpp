@@ -1,8 +1,8 @@
 #include "common/core/parallel.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
+
+#include <omp.h>
 
 #include "common/core/error.hpp"
 

@@ -16,9 +16,7 @@ class Profile {
  public:
   using Clock = std::chrono::steady_clock;
   void add(Stage stage, Clock::duration time) { times_[static_cast<int>(stage)] += time; }
-  double seconds(Stage stage) const {
-    return std::chrono::duration<double>(times_[static_cast<int>(stage)]).count();
-  }
+  double seconds(Stage stage) const { return std::chrono::duration<double>(times_[static_cast<int>(stage)]).count(); }
 
  private:
   std::array<Clock::duration, static_cast<int>(Stage::count)> times_{};

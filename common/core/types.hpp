@@ -1,13 +1,13 @@
 // Small vectors and tensors in D = 2 or 3 dimensions, and the rotation quantities that differ between them.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 namespace galet {
 

@@ -13,12 +13,12 @@ namespace galet {
 
 /// Mechanical energy by form. Elastic parts are zero in the rigid engine.
 struct EnergyParts {
-  double kinetic = 0;             ///< sum of m v^2 / 2, fluctuations
-  double rotational = 0;          ///< sum of I w^2 / 2
-  double cell = 0;                ///< sum of inertia * rate^2 / 2 over the stress-driven modes
+  double kinetic = 0;     ///< sum of m v^2 / 2, fluctuations
+  double rotational = 0;  ///< sum of I w^2 / 2
+  double cell = 0;        ///< sum of inertia * rate^2 / 2 over the stress-driven modes
   double elastic_normal = 0;
   double elastic_tangential = 0;
-  double gravity = 0;             ///< - sum of m gravity.x
+  double gravity = 0;  ///< - sum of m gravity.x
   double total() const { return kinetic + rotational + cell + elastic_normal + elastic_tangential + gravity; }
 };
 
@@ -26,10 +26,10 @@ struct EnergyParts {
 struct SolverSummary {
   long steps = 0;
   long sweeps = 0;
-  long missed = 0;             ///< steps that ended above the tolerance
+  long missed = 0;  ///< steps that ended above the tolerance
   double worst_residual = 0;
-  double residual_sum = 0;     ///< sum over the steps of the residual reached
-  long corrections = 0;        ///< steps whose positions were corrected for drift
+  double residual_sum = 0;  ///< sum over the steps of the residual reached
+  long corrections = 0;     ///< steps whose positions were corrected for drift
 };
 
 template <int D>

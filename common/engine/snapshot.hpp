@@ -17,16 +17,14 @@ namespace galet {
 template <int D>
 struct ContactColumns {
   std::vector<int> i, j;
-  std::vector<Image<D>> image;   ///< of j, as seen from i
-  std::vector<Vec<D>> normal;    ///< n, from i to j
-  std::vector<Vec<D>> branch;    ///< b, from i's centre to j's centre (to the contact point on a plane)
-  std::vector<double> gap;       ///< g, negative in overlap
-  std::vector<Vec<D>> force;     ///< F on j (cd: reaction / dt)
+  std::vector<Image<D>> image;  ///< of j, as seen from i
+  std::vector<Vec<D>> normal;   ///< n, from i to j
+  std::vector<Vec<D>> branch;   ///< b, from i's centre to j's centre (to the contact point on a plane)
+  std::vector<double> gap;      ///< g, negative in overlap
+  std::vector<Vec<D>> force;    ///< F on j (cd: reaction / dt)
 
   std::size_t size() const { return i.size(); }
-  void clear() {
-    i.clear(), j.clear(), image.clear(), normal.clear(), branch.clear(), gap.clear(), force.clear();
-  }
+  void clear() { i.clear(), j.clear(), image.clear(), normal.clear(), branch.clear(), gap.clear(), force.clear(); }
 };
 
 template <int D>
@@ -36,8 +34,8 @@ struct Snapshot {
   const Cell<D>* cell = nullptr;
   std::span<const Plane<D>> planes;
   std::span<const Vec<D>> position;
-  std::span<const Vec<D>> velocity;   ///< fluctuation v
-  std::span<const Spin<D>> spin;      ///< empty in a frictionless layout
+  std::span<const Vec<D>> velocity;  ///< fluctuation v
+  std::span<const Spin<D>> spin;     ///< empty in a frictionless layout
   std::span<const double> radius;
   std::span<const double> mass;
   const ContactColumns<D>* contacts = nullptr;

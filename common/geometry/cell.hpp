@@ -14,8 +14,8 @@ namespace galet {
 template <int D>
 struct Cell {
   Mat<D> box = Mat<D>::Identity();
-  Mat<D> rate = Mat<D>::Zero();     ///< velocity gradient L
-  std::array<bool, D> periodic{};   ///< per cell vector; without periodicity the vector only bounds the volume
+  Mat<D> rate = Mat<D>::Zero();    ///< velocity gradient L
+  std::array<bool, D> periodic{};  ///< per cell vector; without periodicity the vector only bounds the volume
 
   double volume() const { return box.determinant(); }
   bool any_periodic() const {

@@ -3,7 +3,8 @@
 //   z* = the same on the backbone: without rattlers and their contacts, divided by the grains that remain
 // A rattler can't be in equilibrium by its contacts alone: it has fewer than D + 1 (frictionless) or fewer than
 // 2 (frictional) contacts with planes and with grains that are no rattlers (found by removing them repeatedly).
-// Source: chapter, sec. comp; Agnolin and Roux 2007. A self-image contact counts twice for its grain. Cost: a few passes.
+// Source: chapter, sec. comp; Agnolin and Roux 2007. A self-image contact counts twice for its grain. Cost: a few
+// passes.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Scalar numbers of a state: solid fraction, overlaps, stress ratio, and the control numbers as realised.
 //   Phi = sum of grain volumes / V           mu* = |sigma_xy| / sigma_yy
-//   P   = tr(sigma) / D                     
+//   P   = tr(sigma) / D
 //   I     = |L_xy| sqrt(m / (P d^(D-2)))     with P = sigma_yy in shear (chapter, eq. defI)
 //   kappa = K_N / (P d^(D-2))                (chapter, eq. defkappa, linear law)
 // d and m: mean diameter and mass of a grain of mean diameter.

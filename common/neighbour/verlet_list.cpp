@@ -1,12 +1,12 @@
 #include "common/neighbour/verlet_list.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <tuple>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "common/core/parallel.hpp"
@@ -185,8 +185,10 @@ void VerletList<D>::search_bin(int i, int bin, const Image<D>& image, std::span<
     if (squared_distance >= cutoff * cutoff) continue;
     const double overlap = radius[i] + radius[j] - std::sqrt(squared_distance);
     if (overlap > 0.5 * std::min(radius[i], radius[j]))
-      throw RunError(fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
-                                 "contact is too soft or the time step too large", i, j, overlap));
+      throw RunError(
+          fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
+                      "contact is too soft or the time step too large",
+                      i, j, overlap));
     found.push_back({j, image});
   }
 }
@@ -315,6 +317,8 @@ void VerletList<D>::index_rows(int grains) {
       origin_[row] = old_order_[k];
       flipped_[row] = old_flipped_[old_order_[k]];
     }
+    GALET_ENSURE(row == 0 || std::tie(pairs_.i[row - 1], pairs_.j[row - 1], pairs_.image[row - 1]) < key,
+                 "listed pairs are sorted and each stands once");
   }
 }
 

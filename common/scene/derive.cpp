@@ -1,11 +1,11 @@
 #include "common/scene/derive.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "common/core/error.hpp"
 #include "common/scene/packing.hpp"
@@ -79,16 +79,16 @@ void derive_times(const Scene& scene, Derived& derived) {
 void derive_md_step(const Scene& scene, Derived& derived) {
   if (!derived.soft) return;
   const SoftContact& soft = *derived.soft;
-  derived.collision_time = collision_duration(soft.damping_ratio, soft.convention, derived.grains.mean_mass / 2,
-                                              soft.normal_stiffness);
+  derived.collision_time =
+      collision_duration(soft.damping_ratio, soft.convention, derived.grains.mean_mass / 2, soft.normal_stiffness);
   derived.md_dt_stable = stable_dt(scene.dimension, soft, derived.grains.least_mass);
   // With strong damping the contact lasts long for reasons that a step must not follow: the undamped duration bounds.
   const double undamped = collision_duration(0, soft.convention, derived.grains.least_mass / 2, soft.normal_stiffness);
-  const double lightest = collision_duration(soft.damping_ratio, soft.convention, derived.grains.least_mass / 2,
-                                             soft.normal_stiffness);
-  derived.md_dt =
-      scene.md.dt ? *scene.md.dt : std::min({std::min(undamped, lightest) / scene.md.steps_per_contact,
-                                             *derived.md_dt_stable});
+  const double lightest =
+      collision_duration(soft.damping_ratio, soft.convention, derived.grains.least_mass / 2, soft.normal_stiffness);
+  derived.md_dt = scene.md.dt
+                      ? *scene.md.dt
+                      : std::min({std::min(undamped, lightest) / scene.md.steps_per_contact, *derived.md_dt_stable});
 }
 
 /// Shortest of the times in which something moves by its own size.
@@ -213,8 +213,7 @@ std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, 
 
 double restitution_of_damping(double zeta, DampingConvention convention) {
   if (zeta == 0) return 1;
-  if (convention == DampingConvention::elastic)
-    return zeta < 1 ? std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
+  if (convention == DampingConvention::elastic) return zeta < 1 ? std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
   // Both branches meet at zeta = 1, where e = exp(-2); near it the closed forms are 0/0, the limit is exact to 1e-9.
   if (std::abs(zeta - 1) < 1e-9) return std::exp(-2.0);
   if (zeta < 1) return std::exp(-zeta / std::sqrt(1 - zeta * zeta) * (pi - 2 * std::asin(zeta)));
@@ -278,7 +277,8 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   add("I", derived.inertial_number, "shear rate * tau_i");
   add("tau_c", derived.collision_time, "duration of a head-on collision of two mean grains");
   add("duration", derived.duration, "simulated time");
-  add("md dt", derived.md_dt, scene.md.dt ? "md.dt" : "tau_c of the lightest pair / md.steps_per_contact, within the bound");
+  add("md dt", derived.md_dt,
+      scene.md.dt ? "md.dt" : "tau_c of the lightest pair / md.steps_per_contact, within the bound");
   add("md dt bound", derived.md_dt_stable, "stability: stiffness, least mass, damping, 6 (2D) or 9 (3D) neighbours");
   add("cd dt", derived.cd_dt, scene.cd.dt ? "cd.dt" : "cd.dt_factor * shortest of tau_i, 1/rate, d/speed, sqrt(d/g)");
   return lines;

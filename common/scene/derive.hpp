@@ -18,7 +18,7 @@ struct GrainFacts {
   double mean_diameter = 1;  ///< d
   double least_diameter = 1;
   double largest_diameter = 1;
-  double mean_mass = 1;      ///< m, mass of a grain of mean diameter
+  double mean_mass = 1;  ///< m, mass of a grain of mean diameter
   double least_mass = 1;
   double largest_speed = 0;  ///< at the start
 };
@@ -38,18 +38,18 @@ struct Derived {
   Layout layout{2, false};
   GrainFacts grains;
   double friction = 0;
-  double restitution = 0;                    ///< e
-  std::optional<SoftContact> soft;           ///< absent when the scene says nothing about stiffness
-  std::optional<double> pressure;            ///< P
-  std::optional<double> stiffness_level;     ///< kappa = K_N / (P d^(D-2))
+  double restitution = 0;                 ///< e
+  std::optional<SoftContact> soft;        ///< absent when the scene says nothing about stiffness
+  std::optional<double> pressure;         ///< P
+  std::optional<double> stiffness_level;  ///< kappa = K_N / (P d^(D-2))
   std::optional<double> shear_rate;
-  std::optional<double> inertial_number;     ///< I = shear_rate sqrt(m / (P d^(D-2)))
-  std::optional<double> inertial_time;       ///< tau_i = sqrt(m / (P d^(D-2)))
-  std::optional<double> collision_time;      ///< tau_c of two grains of mean mass
-  std::optional<double> md_dt;               ///< time step of md
-  std::optional<double> md_dt_stable;        ///< its stability bound
+  std::optional<double> inertial_number;  ///< I = shear_rate sqrt(m / (P d^(D-2)))
+  std::optional<double> inertial_time;    ///< tau_i = sqrt(m / (P d^(D-2)))
+  std::optional<double> collision_time;   ///< tau_c of two grains of mean mass
+  std::optional<double> md_dt;            ///< time step of md
+  std::optional<double> md_dt_stable;     ///< its stability bound
   double cd_dt = 0;
-  double duration = 0;                       ///< simulated time of the run
+  double duration = 0;  ///< simulated time of the run
 };
 
 /// Throws InputError when the scene lacks what the derivation needs (e.g. a duration).

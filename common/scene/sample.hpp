@@ -15,8 +15,8 @@ struct Sample {
   Cell<D> cell;
   std::vector<Plane<D>> planes;
   std::vector<Vec<D>> position;
-  std::vector<Vec<D>> velocity;   ///< fluctuation v: the grain moves with v + L x
-  std::vector<Spin<D>> spin;      ///< angular velocity
+  std::vector<Vec<D>> velocity;  ///< fluctuation v: the grain moves with v + L x
+  std::vector<Spin<D>> spin;     ///< angular velocity
   std::vector<double> radius;
   std::vector<double> mass;
 

@@ -15,10 +15,10 @@ enum class SizeKind { monodisperse, uniform, discrete };
 /// Distribution of the diameters, by number.
 struct SizeDistribution {
   SizeKind kind = SizeKind::monodisperse;
-  double mean = 1;                 ///< monodisperse, uniform: mean diameter d
-  double spread = 0;               ///< uniform on [mean (1 - spread), mean (1 + spread)], 0 <= spread < 1
-  std::vector<double> diameters;   ///< discrete: the values
-  std::vector<double> fractions;   ///< discrete: the share of each by number, sum 1
+  double mean = 1;                ///< monodisperse, uniform: mean diameter d
+  double spread = 0;              ///< uniform on [mean (1 - spread), mean (1 + spread)], 0 <= spread < 1
+  std::vector<double> diameters;  ///< discrete: the values
+  std::vector<double> fractions;  ///< discrete: the share of each by number, sum 1
 };
 
 /// One grain placed by hand ([[grain]] entries).
@@ -30,10 +30,10 @@ struct ListedGrain {
 };
 
 struct GrainSpec {
-  int count = 0;                   ///< number of grains; with listed grains or a packing file, taken from them
+  int count = 0;  ///< number of grains; with listed grains or a packing file, taken from them
   SizeDistribution diameter;
-  std::optional<double> density;   ///< mass per volume (area in 2D) of the grains' matter
-  std::optional<double> mass;      ///< mass of a grain of mean diameter (excludes density); default 1
+  std::optional<double> density;  ///< mass per volume (area in 2D) of the grains' matter
+  std::optional<double> mass;     ///< mass of a grain of mean diameter (excludes density); default 1
   std::vector<ListedGrain> listed;
 };
 
@@ -43,12 +43,12 @@ enum class DampingConvention {
 };
 
 struct MaterialSpec {
-  double friction = 0;                        ///< Coulomb coefficient mu >= 0
-  std::optional<double> restitution;          ///< e in [0, 1] (md: (0, 1])
-  std::optional<double> damping_ratio;        ///< zeta >= 0 (excludes restitution)
-  std::optional<double> stiffness_level;      ///< kappa = K_N / (P d^(D-2)); needs a pressure
-  std::optional<double> normal_stiffness;     ///< K_N > 0 (excludes stiffness_level)
-  double tangential_stiffness_ratio = 0.5;    ///< K_T / K_N
+  double friction = 0;                      ///< Coulomb coefficient mu >= 0
+  std::optional<double> restitution;        ///< e in [0, 1] (md: (0, 1])
+  std::optional<double> damping_ratio;      ///< zeta >= 0 (excludes restitution)
+  std::optional<double> stiffness_level;    ///< kappa = K_N / (P d^(D-2)); needs a pressure
+  std::optional<double> normal_stiffness;   ///< K_N > 0 (excludes stiffness_level)
+  double tangential_stiffness_ratio = 0.5;  ///< K_T / K_N
   DampingConvention convention = DampingConvention::elastic;
 };
 
@@ -62,17 +62,17 @@ enum class InitialKind {
 
 struct InitialSpec {
   InitialKind kind = InitialKind::gas;
-  double solid_fraction = 0.5;          ///< lattice, gas, compressed_gas: where the grains are first placed
-  double speed = 0;                     ///< root mean square of each velocity component at the start
-  std::string file;                     ///< packing: path, relative to the scene file
-  std::optional<double> friction;       ///< compressed_gas: friction while compressing (default: the material's)
+  double solid_fraction = 0.5;     ///< lattice, gas, compressed_gas: where the grains are first placed
+  double speed = 0;                ///< root mean square of each velocity component at the start
+  std::string file;                ///< packing: path, relative to the scene file
+  std::optional<double> friction;  ///< compressed_gas: friction while compressing (default: the material's)
 };
 
 struct CellSpec {
-  std::vector<bool> periodic;     ///< per direction; default all true
-  std::vector<double> size;       ///< edge lengths; default: from count, solid fraction and aspect
-  std::vector<double> aspect;     ///< edge lengths in proportion to each other; default all 1
-  double inertia_factor = 1;      ///< multiplies the default inertia of the stress-driven components
+  std::vector<bool> periodic;  ///< per direction; default all true
+  std::vector<double> size;    ///< edge lengths; default: from count, solid fraction and aspect
+  std::vector<double> aspect;  ///< edge lengths in proportion to each other; default all 1
+  double inertia_factor = 1;   ///< multiplies the default inertia of the stress-driven components
 };
 
 /// A plane boundary. Grains stay on the side its normal points to.
@@ -100,35 +100,35 @@ enum class LoadingKind {
 struct LoadingSpec {
   LoadingKind kind = LoadingKind::none;
   std::optional<double> pressure;
-  std::optional<double> shear_rate;        ///< plane_shear
-  std::optional<double> inertial_number;   ///< plane_shear, instead of shear_rate; needs a pressure
+  std::optional<double> shear_rate;       ///< plane_shear
+  std::optional<double> inertial_number;  ///< plane_shear, instead of shear_rate; needs a pressure
   std::vector<CellDrive> drives;
-  std::vector<double> gravity;             ///< acceleration, D components; empty: none
+  std::vector<double> gravity;  ///< acceleration, D components; empty: none
 };
 
 enum class EngineKind { md, cd };
 
 struct MdSpec {
-  std::optional<double> dt;          ///< default: derived (see derive.hpp)
-  double steps_per_contact = 50;     ///< default dt = duration of the stiffest collision / this
-  bool allow_unsafe_dt = false;      ///< run although dt is above the stability bound
+  std::optional<double> dt;       ///< default: derived (see derive.hpp)
+  double steps_per_contact = 50;  ///< default dt = duration of the stiffest collision / this
+  bool allow_unsafe_dt = false;   ///< run although dt is above the stability bound
 };
 
 struct CdSpec {
-  std::optional<double> dt;          ///< default: derived
-  double dt_factor = 0.01;           ///< default dt = this * min(inertial time, d / typical speed)
-  double tolerance = 1e-4;           ///< relative error on the contact impulses (see cd/residual.hpp)
-  int max_sweeps = 2000;             ///< Gauss-Seidel sweeps per step at most
-  double penetration = 1e-4;         ///< largest penetration that drift may reach, in units of d
+  std::optional<double> dt;   ///< default: derived
+  double dt_factor = 0.01;    ///< default dt = this * min(inertial time, d / typical speed)
+  double tolerance = 1e-4;    ///< relative error on the contact impulses (see cd/residual.hpp)
+  int max_sweeps = 2000;      ///< Gauss-Seidel sweeps per step at most
+  double penetration = 1e-4;  ///< largest penetration that drift may reach, in units of d
 };
 
 struct RunSpec {
-  std::optional<double> duration;        ///< time simulated
-  std::optional<double> strain;          ///< shear strain simulated (plane_shear), instead of duration
-  double average_from = 0.5;             ///< measures are averaged from this fraction of the run on
-  int samples = 200;                     ///< number of measures over the run
-  std::optional<double> equilibrium;     ///< isotropic: stop once stress is within 1 % and the kinetic energy per
-                                         ///< grain is below this times P d^D
+  std::optional<double> duration;     ///< time simulated
+  std::optional<double> strain;       ///< shear strain simulated (plane_shear), instead of duration
+  double average_from = 0.5;          ///< measures are averaged from this fraction of the run on
+  int samples = 200;                  ///< number of measures over the run
+  std::optional<double> equilibrium;  ///< isotropic: stop once stress is within 1 % and the kinetic energy per
+                                      ///< grain is below this times P d^D
 };
 
 /// What `galet compare` sweeps. Empty lists take the scene's own single value.
@@ -141,11 +141,11 @@ struct CompareSpec {
 
 struct Scene {
   std::string title;
-  std::string source;        ///< text of the file it was read from (echoed into checkpoints), or empty
-  std::string directory;     ///< folder of that file: where relative paths start
+  std::string source;     ///< text of the file it was read from (echoed into checkpoints), or empty
+  std::string directory;  ///< folder of that file: where relative paths start
   int dimension = 2;
   std::uint64_t seed = 1;
-  bool reduced_units = true; ///< false: SI, values may carry unit strings
+  bool reduced_units = true;  ///< false: SI, values may carry unit strings
   EngineKind engine = EngineKind::md;
   GrainSpec grains;
   MaterialSpec material;

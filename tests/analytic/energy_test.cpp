@@ -130,9 +130,9 @@ int most_contacts(const Snapshot<D>& state) {
 }
 
 struct Loss {
-  double total = 0;         ///< relative loss of energy over the run
-  int steps = 0;            ///< with binary collisions only
-  int crowded = 0;          ///< with a grain in two collisions
+  double total = 0;  ///< relative loss of energy over the run
+  int steps = 0;     ///< with binary collisions only
+  int crowded = 0;   ///< with a grain in two collisions
 };
 
 /// Runs an elastic rigid gas. A step whose collisions are all binary must keep the energy, and none may add to it.

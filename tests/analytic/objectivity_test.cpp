@@ -6,9 +6,8 @@
 //      after each turn it is back at 0;
 //   2. an oblique impact with large rotations against an independent integration of the continuous law;
 //   3. the same impact turned as a whole, and with its grains exchanged.
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include "tests/support/scenes.hpp"
 

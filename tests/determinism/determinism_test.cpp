@@ -1,7 +1,7 @@
 // The same bits for any number of threads, and however the steps are asked for.
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "common/core/parallel.hpp"
 #include "tests/determinism/sheared.hpp"
@@ -31,7 +31,9 @@ TEST(determinism, ThreadsMd2D) {
   for (double pressure : {0.0, 1.0}) check_threads<2>(EngineKind::md, pressure);
 }
 TEST(determinism, ThreadsMd3D) { check_threads<3>(EngineKind::md, 1); }
-TEST(determinism, ThreadsCd2D) { check_threads<2>(EngineKind::cd, 1); }  // rigid crystals can't shear at constant volume
+TEST(determinism, ThreadsCd2D) {
+  check_threads<2>(EngineKind::cd, 1);
+}  // rigid crystals can't shear at constant volume
 TEST(determinism, ThreadsCd3D) { check_threads<3>(EngineKind::cd, 1); }
 
 TEST(determinism, ThreadsAreReallyUsed) {

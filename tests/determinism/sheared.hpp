@@ -45,7 +45,7 @@ template <int D>
 std::unique_ptr<Engine<D>> large_run(EngineKind kind, double pressure) {
   return dense_run<D>(kind, D == 2 ? 40 : 10, pressure);
 }
-inline long large_steps(EngineKind kind) { return kind == EngineKind::md ? 120 : 4; }
+inline long large_steps(EngineKind kind) { return kind == EngineKind::md ? 60 : 3; }
 
 template <int D>
 std::unique_ptr<Engine<D>> small_run(EngineKind kind) {

@@ -56,8 +56,7 @@ void check(EngineKind kind, double pressure) {
   EXPECT_LT(most.normal_force, 1e3 * tolerance);  // K or m / dt times an error in positions or velocities
   EXPECT_LT(most.tangential_share, 1e-12);        // mu = 0: the force is along the normal that is shown with it
   // Without friction nothing turns a grain. (cd solves for R w: 300 conversions to and fro.)
-  for (int i = 0; i < sample.count(); ++i)
-    EXPECT_LT(spin_norm(large->snapshot().spin[i] - sample.spin[i]), 1e-13) << i;
+  for (int i = 0; i < sample.count(); ++i) EXPECT_LT(spin_norm(large->snapshot().spin[i] - sample.spin[i]), 1e-13) << i;
 }
 
 TEST(Layout, LargerLayoutGivesTheSameResult) {

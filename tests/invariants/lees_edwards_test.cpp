@@ -4,9 +4,9 @@
 // 10 with each collision of a grain; in these runs a grain collides a few times. In cd a gap that an impact closes
 // within its step enters as g / dt, which turns rounding of positions into 1e-12 of velocity, again at each such
 // impact; measured: up to 5e-8. A wrong image or a wrong velocity of the flow would show as 0.1 and more.
-#include <gtest/gtest.h>
-
 #include <map>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/scenes.hpp"
 

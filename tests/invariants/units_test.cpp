@@ -55,12 +55,10 @@ Result run(EngineKind kind, const Units& units, bool own_dt, long steps) {
     result.contacts += coordination<D>(engine->snapshot(), true).contacts;
   }
   const Snapshot<D> state = engine->snapshot();
-  result.numbers = {stress_ratio<D>(sigma),
-                    sigma(1, 1) / pressure_unit,
-                    solid_fraction<D>(state),
-                    overlap<D>(state).largest / units.length,
-                    engine->time() / units.time,
-                    engine->energy().total() / (units.mass * std::pow(units.length / units.time, 2))};
+  result.numbers = {
+      stress_ratio<D>(sigma),      sigma(1, 1) / pressure_unit,
+      solid_fraction<D>(state),    overlap<D>(state).largest / units.length,
+      engine->time() / units.time, engine->energy().total() / (units.mass * std::pow(units.length / units.time, 2))};
   for (int i = 0; i < state.grains(); ++i) result.numbers.push_back(state.velocity[i].x() * units.time / units.length);
   return result;
 }

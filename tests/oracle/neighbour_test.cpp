@@ -1,8 +1,8 @@
 // The Verlet list against a search over all pairs and images.
-#include <gtest/gtest.h>
-
 #include <set>
 #include <tuple>
+
+#include <gtest/gtest.h>
 
 #include "common/core/error.hpp"
 #include "common/neighbour/verlet_list.hpp"
@@ -79,8 +79,7 @@ void expect_fresh(const VerletList<D>& list, const Sample<D>& sample, double ran
   const double limit = range + list.skin();
   for (const Pair<D>& pair : all_pairs<D>(sample, limit * (1 - 1e-12))) EXPECT_TRUE(rows.contains(pair));
   const std::set<Pair<D>> outer = all_pairs<D>(sample, limit * (1 + 1e-12));
-  for (const Pair<D>& pair : rows)
-    EXPECT_TRUE(outer.contains(pair)) << std::get<0>(pair) << " " << std::get<1>(pair);
+  for (const Pair<D>& pair : rows) EXPECT_TRUE(outer.contains(pair)) << std::get<0>(pair) << " " << std::get<1>(pair);
 }
 
 /// The compressed rows point where they say.

@@ -1,8 +1,7 @@
 // The contact solver against independent answers: a dense Delassus operator formed from the definitions, projected
 // iterations on it, enumeration of the frictionless problem, and the meaning of the residual.
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include "cd/solvers/nsgs.hpp"
 #include "common/core/random.hpp"
@@ -55,15 +54,15 @@ Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64
     problem.inverse_wn[k] = 1 / problem.wn[k];
     if constexpr (Y.friction) {
       problem.arm_i[k] = problem.arm_j[k] = 0.5;
-      problem.inverse_wt[k] = 1 / (problem.wn[k] + 0.25 * (problem.inverse_inertia[problem.i[k]] +
-                                                           problem.inverse_inertia[problem.j[k]]));
+      problem.inverse_wt[k] =
+          1 / (problem.wn[k] + 0.25 * (problem.inverse_inertia[problem.i[k]] + problem.inverse_inertia[problem.j[k]]));
     }
   }
   // A motion that satisfies every constraint exists, so that the problem has a solution.
   Iterate<Y> feasible = random_start<Y>(problem, seed + 1000);
   for (int k = 0; k < contacts; ++k)
-    problem.offset[k] = stream.uniform(0, 0.5) -
-                        problem.normal[k].dot(relative_velocity(problem, feasible, feasible.gradient, k));
+    problem.offset[k] =
+        stream.uniform(0, 0.5) - problem.normal[k].dot(relative_velocity(problem, feasible, feasible.gradient, k));
   // One colour per contact: bodies are shared at will.
   for (int k = 0; k <= contacts; ++k) problem.group.push_back(k);
   return problem;
@@ -83,7 +82,8 @@ void dense_normal_problem(const Problem<Y>& problem, const Iterate<Y>& start, Ei
     add_impulse(problem, pushed, k, p);
     add_to_hub(problem, pushed, Mat<D>(p * (problem.distance[k] * problem.normal[k]).transpose()));
     for (int c = 0; c < n; ++c)
-      w(c, k) = problem.normal[c].dot(relative_velocity(problem, pushed, pushed.gradient, c)) + problem.offset[c] - q[c];
+      w(c, k) =
+          problem.normal[c].dot(relative_velocity(problem, pushed, pushed.gradient, c)) + problem.offset[c] - q[c];
   }
 }
 
@@ -120,8 +120,8 @@ void expect_enumerated_solution(std::uint64_t seed, bool hub) {
     if (!solves) continue;
     found = true;
     for (int c = 0; c < 8; ++c) {
-      const double u_solved = problem.normal[c].dot(relative_velocity(problem, solved, solved.gradient, c)) +
-                              problem.offset[c];
+      const double u_solved =
+          problem.normal[c].dot(relative_velocity(problem, solved, solved.gradient, c)) + problem.offset[c];
       // Tolerance: the solver's 1e-12, times the condition of a random 8 x 8 problem.
       EXPECT_NEAR(u_solved, u[c], 1e-9);
     }

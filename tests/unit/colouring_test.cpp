@@ -1,9 +1,9 @@
 #include "common/graph/colouring.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "common/core/random.hpp"
 

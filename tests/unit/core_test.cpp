@@ -1,9 +1,9 @@
 // Random streams, threads, hash, columns, errors.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "common/core/archive.hpp"
 #include "common/core/column.hpp"
@@ -54,9 +54,12 @@ TEST(Parallel, RangesCoverEveryIndexOnceForAnyNumberOfThreads) {
   for (int threads = 1; threads <= 4; ++threads) {
     set_thread_count(threads);
     std::vector<int> visits(10007, 0);
-    parallel_ranges(visits.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) ++visits[k];
-    }, 1);
+    parallel_ranges(
+        visits.size(),
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t k = begin; k < end; ++k) ++visits[k];
+        },
+        1);
     for (int count : visits) ASSERT_EQ(count, 1);
     std::vector<std::pair<std::size_t, std::size_t>> chunks(chunk_count(visits.size()));
     parallel_chunks(visits.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {

@@ -193,7 +193,7 @@ void expect_packing(const std::string& name, int count, double phi, double z, do
   EXPECT_NEAR(mean_pressure<D>(stress(snapshot).total()) / pressure, 1, 0.04);
 }
 
-// Numbers of /work/shared/packings/README.md.
+// Numbers of the README beside the packings.
 TEST(Lammps, PackingOfSpheresMadeByLammps) { expect_packing<3>("pack4k_hooke.data", 4096, 0.624, 5.35, 1.03e-4); }
 TEST(Lammps, PackingOfDisksMadeByLammps) { expect_packing<2>("pack2d.data", 2025, 0, 3.55, 1.5e-4); }
 
