@@ -33,7 +33,7 @@ class Assembly {
   void measure(const Bodies<Y>& bodies, const VerletList<D>& list) {
     frames_.resize(list.size());
     opening_.resize(list.size());
-    active_.assign(list.size(), 0);
+    refill(active_, list.size(), std::uint8_t{0});
     const PairColumns<D>& pairs = list.pairs();
     parallel_ranges(list.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {

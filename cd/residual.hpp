@@ -71,7 +71,7 @@ inline ResidualParts contact_residual(const Problem<Y>& problem, const Iterate<Y
 /// The residual err; `partial` is scratch. Zero when there is no impulse and nothing asks for one.
 template <Layout Y>
 double residual(const Problem<Y>& problem, const Iterate<Y>& iterate, std::vector<ResidualParts>& partial) {
-  partial.assign(chunk_count(problem.size()), ResidualParts{});
+  refill(partial, chunk_count(problem.size()), ResidualParts{});
   parallel_chunks(problem.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     ResidualParts sum;
     for (std::size_t k = begin; k < end; ++k) sum += contact_residual(problem, iterate, k);

@@ -114,6 +114,7 @@ class RigidEngine final : public Engine<Y.dim> {
     move(iterate_.velocity, iterate_.gradient, dt_);
     for (Plane<D>& plane : bodies_.planes) plane.point += dt_ * plane.velocity;
     correct_drift();
+    if constexpr (Y.friction && D == 3) turn_reactions();
     ++steps_;
   }
 
@@ -177,7 +178,7 @@ class RigidEngine final : public Engine<Y.dim> {
     list_.configure(0, skin_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
     std::swap(history_, carried_);
-    history_.assign(list_.size(), Reaction<Y>::Zero());
+    refill(history_, list_.size(), Reaction<Y>::Zero());
     for (std::size_t row = 0; row < list_.size(); ++row) {
       const int from = list_.origin()[row];
       if (from < 0) continue;
@@ -245,12 +246,25 @@ class RigidEngine final : public Engine<Y.dim> {
   }
 
   void store_reactions() {
-    history_.assign(list_.size(), Reaction<Y>::Zero());
+    refill(history_, list_.size(), Reaction<Y>::Zero());
     for (std::size_t k = 0; k < problem_.size(); ++k) {
       history_[assembly_.row_of()[k]] = iterate_.reaction[k];
       GALET_ENSURE(!(problem_.normal[k].dot(impulse_vector<Y>(problem_.normal[k], iterate_.reaction[k])) <
                      -1e-12 * iterate_.reaction[k].norm()),
                    "rigid grains do not pull on each other");
+    }
+  }
+
+  /// Impulses kept as vectors turn with their contacts to the positions at the end of the step; normal and tangential
+  /// components need no turning.
+  void turn_reactions() {
+    for (std::size_t k = 0; k < problem_.size(); ++k) {
+      Vec<3>& reaction = history_[assembly_.row_of()[k]];
+      if (reaction.isZero(0)) continue;
+      const Vec<3>& before = problem_.normal[k];
+      const Vec<3> after = frame_of(bodies_, list_.pairs(), assembly_.row_of()[k]).normal;
+      const double normal = before.dot(reaction);
+      reaction = normal * after + carried(reaction - normal * before, before, after);
     }
   }
 
@@ -306,7 +320,7 @@ class RigidEngine final : public Engine<Y.dim> {
       if constexpr (Y.friction) correction_.spin.assign(iterate_.spin.size(), zero_spin<D>());
       correction_.hub_rate.assign(problem_.hub.size(), 0.0);
       correction_.gradient.setZero();
-      correction_.reaction.assign(problem_.size(), Reaction<Y>::Zero());
+      refill(correction_.reaction, problem_.size(), Reaction<Y>::Zero());
       solver_.solve(problem_, {1e-3, 200}, correction_);
       problem_.friction = friction_;
       move(correction_.velocity, correction_.gradient, 1);

@@ -6,7 +6,8 @@
 add_library(galet_flags INTERFACE)
 target_compile_options(galet_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math
-  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+  # -Wrestrict reports string concatenation falsely in GCC 12 (bug 105651).
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict)
 if(GALET_VALIDATE)
   target_compile_definitions(galet_flags INTERFACE GALET_VALIDATE=1)
 endif()

@@ -39,7 +39,7 @@ class ContactPass {
   Mat<D> run(const Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<D>& list, const PassLaw& law,
              Contacts<Y>& contacts) {
     const std::size_t rows = list.size();
-    partial_virial_.assign(chunk_count(rows), Mat<D>::Zero());
+    refill(partial_virial_, chunk_count(rows), Mat<D>::Zero());
     parallel_chunks(rows, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       Mat<D> virial = Mat<D>::Zero();
       for (std::size_t row = begin; row < end; ++row) row_force(bodies, seen, list, law, row, contacts, virial);

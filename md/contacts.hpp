@@ -36,11 +36,11 @@ struct Contacts {
   /// Takes over the rows of `old` that the rebuilt list still has; forces are computed anew by the next pass.
   void carry(const Contacts& old, const VerletList<D>& list) {
     const std::size_t rows = list.size();
-    force.assign(rows, Vec<D>::Zero());
-    touching.assign(rows, 0);
-    damping.assign(rows, 0);
-    if constexpr (Y.friction) twist.assign(rows, zero_spin<D>()), spring.assign(rows, zero_spin<D>());
-    if constexpr (transported) normal.assign(rows, Vec<D>::Zero());
+    refill(force, rows, Vec<D>::Zero());
+    refill(touching, rows, std::uint8_t{0});
+    refill(damping, rows, 0.0);
+    if constexpr (Y.friction) refill(twist, rows, zero_spin<D>()), refill(spring, rows, zero_spin<D>());
+    if constexpr (transported) refill(normal, rows, Vec<D>::Zero());
     for (std::size_t row = 0; row < rows; ++row) {
       const int from = list.origin()[row];
       if (from < 0) continue;

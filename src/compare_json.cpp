@@ -18,6 +18,7 @@ Json of(const std::optional<EngineLimit>& limit) {
   return {{"value", limit->value.value},
           {"error", limit->value.error},
           {"slope", of(limit->slope)},
+          {"on_line", limit->on_line},
           {"systematic", limit->systematic},
           {"runs", limit->runs}};
 }

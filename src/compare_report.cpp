@@ -44,11 +44,14 @@ std::string state_name(const std::optional<double>& inertial_number) {
 void add_limit(TextTable& table, const std::string& name, const RigidLimit& limit) {
   const auto engine = [](const std::optional<EngineLimit>& of) {
     if (!of) return std::string("-");
+    if (!of->on_line) return std::string("not on a line");
     return with_error(of->value) + (of->runs == 1 ? " *" : "");
   };
-  const std::string verdict = !limit.agree ? "-" : *limit.agree ? "agree" : "DIFFER";
-  table.add({name, engine(limit.md), engine(limit.cd), limit.difference ? with_error(*limit.difference) : "-", verdict,
-             with_error(limit.combined)});
+  const bool no_line = (limit.md && !limit.md->on_line) || (limit.cd && !limit.cd->on_line);
+  const std::string verdict = no_line ? "no limit" : !limit.agree ? "-" : *limit.agree ? "agree" : "DIFFER";
+  const bool judged = limit.difference && !no_line;
+  table.add({name, engine(limit.md), engine(limit.cd), judged ? with_error(*limit.difference) : "-", verdict,
+             no_line ? "-" : with_error(limit.combined)});
 }
 
 std::string limits_text(const StateLimit& state) {

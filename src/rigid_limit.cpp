@@ -76,6 +76,12 @@ std::vector<Run> finite_runs(std::span<const Run> runs) {
   return finite;
 }
 
+/// Whether points with known errors lie on their line: chi^2 per spare point within three standard errors.
+bool on_line(std::span<const LinePoint> points, const LineFit& fit) {
+  const int spare = static_cast<int>(points.size()) - 2;
+  return spare <= 0 || fit.chi_square <= 9 * spare;
+}
+
 /// Mean with weights 1/error^2; when an error is unknown, the plain mean with half the difference as its error.
 Estimate combine(const Estimate& a, const Estimate& b) {
   if (a.error <= 0 || b.error <= 0) return {0.5 * (a.value + b.value), 0.5 * std::abs(a.value - b.value)};
@@ -114,7 +120,7 @@ std::optional<EngineLimit> md_limit(std::span<const MdRun> runs, double power) {
   for (const MdRun& run : finite_runs(runs)) points.push_back({std::pow(run.stiffness_level, -power), run.value});
   if (points.empty()) return std::nullopt;
   const LineFit fit = fit_line(points);
-  return EngineLimit{fit.intercept, fit.slope, 0, static_cast<int>(points.size())};
+  return EngineLimit{fit.intercept, fit.slope, 0, static_cast<int>(points.size()), on_line(points, fit)};
 }
 
 std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs) {
@@ -123,7 +129,7 @@ std::optional<EngineLimit> cd_limit(std::span<const CdRun> runs) {
   const TightestTwo tolerance = tightest_two(usable);
   const std::vector<LinePoint> points = points_at(usable, tolerance.tightest);
   const LineFit fit = fit_line(points);
-  EngineLimit limit{fit.intercept, fit.slope, 0, static_cast<int>(points.size())};
+  EngineLimit limit{fit.intercept, fit.slope, 0, static_cast<int>(points.size()), on_line(points, fit)};
   if (tolerance.second) {
     const LineFit looser = fit_line(points_at(usable, *tolerance.second));
     const double difference = fit.intercept.value - looser.intercept.value;
@@ -141,7 +147,8 @@ RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd, dou
   } else if (limit.md && limit.cd) {
     limit.combined = combine(limit.md->value, limit.cd->value);
     limit.difference = deviation(limit.md->value, limit.cd->value);
-    limit.agree = std::abs(limit.difference->value) <= 2 * limit.difference->error;
+    if (limit.md->on_line && limit.cd->on_line)
+      limit.agree = std::abs(limit.difference->value) <= 2 * limit.difference->error;
   } else {
     limit.combined = limit.md ? limit.md->value : limit.cd->value;
   }

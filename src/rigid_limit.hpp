@@ -6,7 +6,10 @@
 //   cd   q = q_cd + slope * dt, from the rows with the tightest tolerance; the limit is dt -> 0 (the time stepping is
 //        of first order). The tolerance has no known law: a second tolerance gives its own limit q', and
 //        systematic^2 = max(0, (q_cd - q')^2 - (error^2 + error'^2)): what noise doesn't explain of the difference.
-//   agreement   |q_md - q_cd| <= 2 sqrt(error_md^2 + error_cd^2)
+//   line        a limit stands only if the runs lie on the line: with runs to spare, chi^2 <= 9 per spare run (three
+//        standard errors). z in a flow often does not: an instant counts every collision that is under way, for as long
+//        as it lasts (md) or as the step is (cd), and z falls with the logarithm of that time, without a limit to see.
+//   agreement   |q_md - q_cd| <= 2 sqrt(error_md^2 + error_cd^2); not judged when a limit does not stand
 //   combined    mean of the two limits with weights 1/error^2
 // A single run is not extrapolated: its value stands for the limit, and `runs` says so. Errors are standard errors;
 // an error of 0 means "unknown". Pure functions.
@@ -52,6 +55,7 @@ struct EngineLimit {
   Estimate slope;         ///< per kappa^-power (md) or per dt (cd)
   double systematic = 0;  ///< cd: part of the error that comes from the tolerance
   int runs = 0;           ///< in the fit; 1: not extrapolated
+  bool on_line = true;    ///< the runs lie on the line within their errors; otherwise the value is no limit
 };
 
 /// None without runs. `power`: see above.

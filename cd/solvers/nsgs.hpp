@@ -132,7 +132,11 @@ class Nsgs {
   void restart_momentum(const Iterate<Y>& iterate) {
     momentum_ = 1;
     since_restart_ = 0;
-    previous_ = iterate;
+    copy_with_room(iterate.reaction, previous_.reaction);
+    copy_with_room(iterate.velocity, previous_.velocity);
+    if constexpr (Y.friction) copy_with_room(iterate.spin, previous_.spin);
+    copy_with_room(iterate.hub_rate, previous_.hub_rate);
+    previous_.gradient = iterate.gradient;
   }
 
   void extrapolate(Iterate<Y>& iterate, double most, bool restart) {

@@ -27,6 +27,20 @@ class Column<T, false> {
   void swap(Column&) {}
 };
 
+/// values.assign(count, value) with room to spare when it must grow, so that a size that wanders allocates seldom.
+template <class Values>
+void refill(Values& values, std::size_t count, const typename Values::value_type& value) {
+  if (count > values.capacity()) values.reserve(count + count / 2);
+  values.assign(count, value);
+}
+
+/// to = from, with room to spare when it must grow.
+template <class Values>
+void copy_with_room(const Values& from, Values& to) {
+  if (from.size() > to.capacity()) to.reserve(from.size() + from.size() / 2);
+  to.assign(from.begin(), from.end());
+}
+
 static_assert(sizeof(Column<double, false>) == 1, "an absent column is an empty type");
 
 }  // namespace galet

@@ -39,6 +39,13 @@ inline ContactFrame<D> plane_frame(const Vec<D>& position, double radius, const 
   return frame;
 }
 
+/// A vector of the tangent plane of `before`, carried to that of `after` (unit normals) by the smallest rotation that
+/// takes one normal to the other; its norm is kept to rounding.
+inline Vec<3> carried(const Vec<3>& value, const Vec<3>& before, const Vec<3>& after) {
+  const Vec<3> turned = value - (after.dot(value) / (1 + before.dot(after))) * (before + after);
+  return turned - after.dot(turned) * after;  // keeps rounding from building up along the normal
+}
+
 /// The tangent that makes (n, t) right-handed in 2D: u_T and F_T of a disk contact are scalars along it.
 inline Vec<2> tangent(const Vec<2>& normal) { return {-normal.y(), normal.x()}; }
 

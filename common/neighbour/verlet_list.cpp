@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "common/core/column.hpp"
 #include "common/core/error.hpp"
 #include "common/core/parallel.hpp"
 #include "common/geometry/contact_frame.hpp"
@@ -103,8 +104,10 @@ void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
 /// which they are sorted again: x_j + box image = x_j' + box' image' with x' = x + box' wrap.
 template <int D>
 void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
-  old_pairs_ = pairs_;
-  old_flipped_.assign(old_pairs_.size(), 0);
+  copy_with_room(pairs_.i, old_pairs_.i);
+  copy_with_room(pairs_.j, old_pairs_.j);
+  copy_with_room(pairs_.image, old_pairs_.image);
+  refill(old_flipped_, old_pairs_.size(), std::uint8_t{0});
   const int grains = static_cast<int>(wraps_.size());
   for (std::size_t row = 0; row < old_pairs_.size(); ++row) {
     const int i = old_pairs_.i[row], j = old_pairs_.j[row];
@@ -153,7 +156,7 @@ void VerletList<D>::fill_bins(std::span<const Vec<D>> position, const Cell<D>& c
     total *= bins_[a];
   }
   bin_of_.resize(position.size());
-  bin_start_.assign(total + 1, 0);
+  refill(bin_start_, total + 1, 0);
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vec<D> fraction = to_fraction * position[i];
     int bin = 0;
@@ -166,9 +169,8 @@ void VerletList<D>::fill_bins(std::span<const Vec<D>> position, const Cell<D>& c
   }
   std::partial_sum(bin_start_.begin(), bin_start_.end(), bin_start_.begin());
   bin_grains_.resize(position.size());
-  std::vector<int>& cursor = found_count_;
-  cursor.assign(bin_start_.begin(), bin_start_.end() - 1);
-  for (std::size_t i = 0; i < position.size(); ++i) bin_grains_[cursor[bin_of_[i]]++] = static_cast<int>(i);
+  bin_cursor_.assign(bin_start_.begin(), bin_start_.end() - 1);
+  for (std::size_t i = 0; i < position.size(); ++i) bin_grains_[bin_cursor_[bin_of_[i]]++] = static_cast<int>(i);
 }
 
 template <int D>
@@ -237,7 +239,7 @@ void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const dou
   chunk_found_.resize(chunk_count(grains));
   found_count_.assign(grains, 0);
   // An exception must not leave a parallel region: each chunk keeps its own first failure.
-  std::vector<std::string> failure(chunk_count(grains));
+  failures_.assign(chunk_count(grains), std::string());
   parallel_chunks(grains, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     std::vector<Neighbour>& found = chunk_found_[chunk];
     found.clear();
@@ -248,10 +250,10 @@ void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const dou
         found_count_[i] = static_cast<int>(found.size() - before);
       }
     } catch (const RunError& error) {
-      failure[chunk] = error.what();
+      failures_[chunk] = error.what();
     }
   });
-  for (const std::string& message : failure)
+  for (const std::string& message : failures_)
     if (!message.empty()) throw RunError(message);
 }
 
@@ -303,8 +305,8 @@ void VerletList<D>::index_rows(int grains) {
   for (std::size_t row = 0; row < rows; ++row)
     if (pairs_.j[row] < grains) rows_of_second_[found_count_[pairs_.j[row]]++] = static_cast<int>(row);
 
-  origin_.assign(rows, -1);
-  flipped_.assign(rows, 0);
+  refill(origin_, rows, -1);
+  refill(flipped_, rows, std::uint8_t{0});
   std::size_t k = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     const auto key = std::tie(pairs_.i[row], pairs_.j[row], pairs_.image[row]);

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/core/archive.hpp"
@@ -110,7 +111,8 @@ class VerletList {
   std::vector<int> bin_of_, bin_start_, bin_grains_;
   std::vector<Image<D>> wraps_;
   std::vector<std::vector<Neighbour>> chunk_found_;
-  std::vector<int> found_count_;
+  std::vector<int> found_count_, bin_cursor_;
+  std::vector<std::string> failures_;  ///< of the chunks of a search; empty: none
 };
 
 extern template class VerletList<2>;

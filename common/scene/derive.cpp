@@ -155,17 +155,13 @@ Derived derive(const Scene& scene, const GrainFacts& facts) {
 namespace {
 
 /// Inertia of a mode with which the cell answers within a few inertial times: that of the grains themselves moving
-/// affinely, m_total H^2 / 12 per driven component, H the length that the component stretches.
+/// affinely in a cell of equal edges, m_total V^(2/D) / 12 per driven component. (The volume, and not an edge, because
+/// the same periodic sample has many cells.)
 template <int D>
 double default_inertia(const Mat<D>& direction, const Sample<D>& sample, double factor) {
   const double mass = std::accumulate(sample.mass.begin(), sample.mass.end(), 0.0);
-  double sum = 0;
-  for (int a = 0; a < D; ++a)
-    for (int b = 0; b < D; ++b) {
-      const double length = sample.cell.box.row(b).norm();
-      sum += direction(a, b) * direction(a, b) * length * length;
-    }
-  return factor * mass * sum / 12;
+  const double edge = std::pow(sample.cell.volume(), 1.0 / D);
+  return factor * mass * edge * edge * direction.squaredNorm() / 12;
 }
 
 template <int D>

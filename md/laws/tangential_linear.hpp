@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "common/core/types.hpp"
+#include "common/geometry/contact_frame.hpp"
 
 namespace galet::md {
 
@@ -45,12 +45,10 @@ inline Vec<3> tangential_linear(const TangentialLaw& law, double bound, const Ve
 /// takes one normal to the other, then by the angle `twist` about the new normal (mean spin of the two grains times
 /// dt). Both steps keep the norm to rounding, so that a loaded pair that turns rigidly keeps its tangential force.
 inline Vec<3> transport(const Vec<3>& value, const Vec<3>& before, const Vec<3>& after, double twist) {
-  const Vec<3> sum = before + after;
-  Vec<3> carried = value - (after.dot(value) / (1 + before.dot(after))) * sum;
-  carried -= after.dot(carried) * after;  // keeps rounding from building up along the normal
+  const Vec<3> moved = carried(value, before, after);
   // The rotation by `twist`, with tan(twist/2) ~ twist/2: exact in norm, third order in the angle.
   const double half = 0.5 * twist, scale = 1 / (1 + half * half);
-  return (1 - half * half) * scale * carried + 2 * half * scale * after.cross(carried);
+  return (1 - half * half) * scale * moved + 2 * half * scale * after.cross(moved);
 }
 
 }  // namespace galet::md

@@ -158,6 +158,7 @@ Loss rigid_gas_loss(double dt, double duration) {
     last = now;
   }
   EXPECT_EQ(engine->solver_summary().missed, 0);
+  EXPECT_EQ(engine->solver_summary().steps, engine->steps());
   loss.total = 1 - engine->energy().total() / start;
   return loss;
 }

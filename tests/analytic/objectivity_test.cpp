@@ -87,6 +87,35 @@ TEST(Objectivity, ManyTurnsLeaveTheNormUnchanged) {
   EXPECT_LT(least, tangential_stiffness * slip_speed * dt);
 }
 
+/// Heavy grain 1 passes grain 0 on a straight line, without spins: from x = -0.6 to 0.5 at a height H = 0.78, so that
+/// the normal turns by 1.2 rad. The slip speed is v cos(theta), and F_T turns with the normal without loss:
+/// |F_T| = K_T (H asinh(x1 / H) - H asinh(x0 / H)). Returns the relative error of the engine's norm.
+double passing_error(int steps) {
+  const double height = 0.78, start = -0.6, end = 0.5;
+  Sample<3> sample = pair_sample<3>(Vec<3>::UnitZ(), height - 1, {0.5, 0.5}, {1e14, 1e14});
+  sample.position[1].x() += start;
+  sample.velocity[1] = Vec<3>::UnitX();
+  Scene scene = free_scene(3, 50, 1, heavy_stiffness);  // mu so large that nothing slides
+  set_dt(scene, (end - start) / steps);
+  const auto engine = make_engine<3>(EngineKind::md, scene, sample);
+  engine->advance(steps);
+  const double elongation = height * (std::asinh(end / height) - std::asinh(start / height));
+  return std::abs(tangential_force(engine->snapshot()).norm() / (tangential_stiffness * elongation) - 1);
+}
+
+TEST(Objectivity, ForceTurnsWithTheNormalWithoutLoss) {
+  // The trapezoidal rule for the slip is of second order. A force that is only projected on the new tangent plane
+  // loses a part (turning per step)^2 / 2 in each step, which is of first order in all: 1.2^2 / 2 / 800 = 9e-4.
+  const std::array steps{100, 200, 400, 800};
+  std::array<double, 4> dt, error;
+  for (int level = 0; level < 4; ++level) {
+    dt[level] = 1.0 / steps[level];
+    error[level] = passing_error(steps[level]);
+  }
+  EXPECT_GT(observed_order(dt, error), 1.8);
+  EXPECT_LT(error[3], 1e-5);  // (1.2 / 800)^2 times a factor of order 1
+}
+
 /// The state of an impact of two unequal spheres in an independent integration.
 struct Impact {
   Vec<3> x = Vec<3>::Zero();  ///< from grain 0 to grain 1

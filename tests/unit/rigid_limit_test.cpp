@@ -54,6 +54,15 @@ TEST(FitLine, UnknownErrorsFollowFromTheScatter) {
 
 TEST(FitLine, NeedsAPoint) { EXPECT_THROW(fit_line({}), std::invalid_argument); }
 
+TEST(RigidLimit, RunsOffTheLineGiveNoLimitAndNoVerdict) {
+  // z falling by the same amount per decade of kappa: no power law, no limit.
+  const std::vector<MdRun> md{{1e3, {2.0, 0.01}}, {1e4, {1.5, 0.01}}, {1e5, {1.0, 0.01}}};
+  const std::vector<CdRun> cd{{0.01, 1e-4, {1.0, 0.01}}, {0.02, 1e-4, {1.2, 0.01}}};
+  EXPECT_FALSE(md_limit(md, 0.5)->on_line);
+  EXPECT_TRUE(cd_limit(cd)->on_line) << "two runs always lie on a line";
+  EXPECT_FALSE(rigid_limit(md, cd, 0.5).agree.has_value());
+}
+
 TEST(RigidLimit, CoordinationGoesWithTheRootOfKappa) {
   // z = 1.2 + 30 kappa^-1/2 exactly: the line in kappa^-1/2 finds 1.2, the line in 1/kappa does not.
   std::vector<MdRun> runs;
