@@ -15,12 +15,8 @@ Json of(const Estimate& estimate) { return {{"value", estimate.value}, {"error",
 
 Json of(const std::optional<EngineLimit>& limit) {
   if (!limit) return nullptr;
-  return {{"value", limit->value.value},
-          {"error", limit->value.error},
-          {"slope", of(limit->slope)},
-          {"on_line", limit->on_line},
-          {"systematic", limit->systematic},
-          {"runs", limit->runs}};
+  return {{"value", limit->value.value}, {"error", limit->value.error},     {"slope", of(limit->slope)},
+          {"on_line", limit->on_line},   {"systematic", limit->systematic}, {"runs", limit->runs}};
 }
 
 Json of(const RigidLimit& limit) {

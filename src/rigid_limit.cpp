@@ -145,7 +145,12 @@ RigidLimit rigid_limit(std::span<const MdRun> md, std::span<const CdRun> cd, dou
   if (!limit.md && !limit.cd) {
     limit.combined.value = std::numeric_limits<double>::quiet_NaN();
   } else if (limit.md && limit.cd) {
-    limit.combined = combine(limit.md->value, limit.cd->value);
+    if (limit.md->on_line && limit.cd->on_line)
+      limit.combined = combine(limit.md->value, limit.cd->value);
+    else if (limit.md->on_line || limit.cd->on_line)
+      limit.combined = limit.md->on_line ? limit.md->value : limit.cd->value;
+    else
+      limit.combined.value = std::numeric_limits<double>::quiet_NaN();
     limit.difference = deviation(limit.md->value, limit.cd->value);
     if (limit.md->on_line && limit.cd->on_line)
       limit.agree = std::abs(limit.difference->value) <= 2 * limit.difference->error;

@@ -10,7 +10,7 @@
 //        standard errors). z in a flow often does not: an instant counts every collision that is under way, for as long
 //        as it lasts (md) or as the step is (cd), and z falls with the logarithm of that time, without a limit to see.
 //   agreement   |q_md - q_cd| <= 2 sqrt(error_md^2 + error_cd^2); not judged when a limit does not stand
-//   combined    mean of the two limits with weights 1/error^2
+//   combined    mean of the limits that stand, with weights 1/error^2; NaN when there are two and neither stands
 // A single run is not extrapolated: its value stands for the limit, and `runs` says so. Errors are standard errors;
 // an error of 0 means "unknown". Pure functions.
 #pragma once

@@ -347,8 +347,8 @@ void add_run(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.run.equilibrium; },
                   .range = above(0),
                   .fallback = "run to the end",
-                  .doc = "isotropic: stop once the stress is within 1 % and the kinetic energy per grain is below "
-                         "this times P d^D"});
+                  .doc = "isotropic: stop once, for one inertial time, the stress is within 1 % and the kinetic energy "
+                         "per grain (rattlers apart) is below this times P d^D"});
 }
 
 void add_compare(Rows& rows) {

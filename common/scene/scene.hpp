@@ -127,8 +127,8 @@ struct RunSpec {
   std::optional<double> strain;       ///< shear strain simulated (plane_shear), instead of duration
   double average_from = 0.5;          ///< measures are averaged from this fraction of the run on
   int samples = 200;                  ///< number of measures over the run
-  std::optional<double> equilibrium;  ///< isotropic: stop once stress is within 1 % and the kinetic energy per
-                                      ///< grain is below this times P d^D
+  std::optional<double> equilibrium;  ///< isotropic: stop once, for one inertial time, stress is within 1 % and the
+                                      ///< kinetic energy per grain (rattlers apart) is below this times P d^D
 };
 
 /// What `galet compare` sweeps. Empty lists take the scene's own single value.
