@@ -26,7 +26,7 @@ for name in "${names[@]}"; do
       for engine in md cd; do
         "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
       done ;;
-    layouts) "$bin/benchmarks/layouts" --benchmark_min_time=2 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
+    layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac
