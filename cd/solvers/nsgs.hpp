@@ -8,7 +8,7 @@
 //
 // Momentum (AGS): after a sweep that took y to r, the next sweep starts from r + beta (r - r_previous), with
 // Nesterov's beta capped (0.9) and a restart when the sweep's change grows. Velocities and hub are affine in the
-// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 2.5 to 9 times fewer sweeps in
+// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 2 to 11 times fewer sweeps in
 // dense packings from a cold start than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
 //
 // Sources: Moreau 1994; Jean 1999; Jourdan, Alart and Jean 1998; momentum after Nesterov 1983 with the restart of
