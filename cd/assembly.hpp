@@ -101,15 +101,15 @@ class Assembly {
 
  private:
   /// Whether no grain stands twice in a colour (the sequential tail excepted): what threads rely on.
-  static bool no_grain_twice(const Problem<Y>& problem, int grains) {
-    std::vector<int> colour_of(grains, -1);
+  bool no_grain_twice(const Problem<Y>& problem, int grains) {
+    colour_of_.assign(grains, -1);
     const int colours = static_cast<int>(problem.group.size()) - 1 - (problem.sequential_tail ? 1 : 0);
     for (int colour = 0; colour < colours; ++colour)
       for (int k = problem.group[colour]; k < problem.group[colour + 1]; ++k)
         for (const int grain : {problem.i[k], problem.j[k] == problem.i[k] ? grains : problem.j[k]}) {
           if (grain >= grains) continue;
-          if (colour_of[grain] == colour) return false;
-          colour_of[grain] = colour;
+          if (colour_of_[grain] == colour) return false;
+          colour_of_[grain] = colour;
         }
     return true;
   }
@@ -152,6 +152,7 @@ class Assembly {
   std::vector<std::uint8_t> active_;
   std::vector<int> rows_, body_i_, body_j_, row_of_;
   Colouring colouring_;
+  std::vector<int> colour_of_;  ///< scratch of the invariant check
 };
 
 }  // namespace galet::cd
