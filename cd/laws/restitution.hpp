@@ -8,17 +8,22 @@
 // contains 0, so that no step makes kinetic energy when every contact has the same e in [0, 1] and no friction.
 // A pair that separates (u_N- > 0) may come back by at most e u_N- dt in the step: a transient penetration of that
 // size, which the next step's impact removes.
+// With e = 1 a pair that only others could close within the step is left to the next step: the second line would take
+// its energy (it stops the pair before the impact), and an elastic gas would cool at first order in dt. What such a
+// pair overlaps meanwhile, u_N dt at most, is drift like any other.
 // g gap, u_N- normal velocity at the start of the step. Source: Moreau 1988; Acary and Brogliato 2008, ch. 10.
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 namespace galet::cd {
 
 inline double impact_offset(double gap, double opening_velocity, double restitution, double dt) {
   const double impact = restitution * opening_velocity;
   const bool closing = gap <= 0 || (opening_velocity < 0 && gap + dt * opening_velocity <= 0);
-  return closing ? impact : std::max(gap / dt, impact);
+  if (closing) return impact;
+  return restitution == 1 ? std::numeric_limits<double>::infinity() : std::max(gap / dt, impact);
 }
 
 }  // namespace galet::cd
