@@ -69,6 +69,7 @@ class Assembly {
   /// Fills the contact columns from the active rows, grouped by colour. `row_of` tells each contact's row.
   void fill(const Bodies<Y>& bodies, const VerletList<D>& list, double restitution, double dt, Problem<Y>& problem) {
     const PairColumns<D>& pairs = list.pairs();
+    make_room(list.size(), problem);
     rows_.clear(), body_i_.clear(), body_j_.clear();
     for (std::size_t row = 0; row < list.size(); ++row) {
       if (!active_[row]) continue;
@@ -76,7 +77,7 @@ class Assembly {
       body_i_.push_back(pairs.i[row]);
       body_j_.push_back(pairs.j[row]);
     }
-    colouring_.colour(body_i_, body_j_, bodies.grains());
+    colouring_.colour(body_i_, body_j_, bodies.grains(), rows_.capacity());
     problem.resize(rows_.size());
     problem.group = colouring_.start;
     problem.sequential_tail = colouring_.overflow;
@@ -100,6 +101,15 @@ class Assembly {
   std::size_t size() const { return frames_.size(); }
 
  private:
+  /// Memory for all listed pairs and some more: the number of active ones wanders from step to step.
+  void make_room(std::size_t listed, Problem<Y>& problem) {
+    if (rows_.capacity() >= listed) return;
+    const std::size_t room = listed + listed / 2;
+    rows_.reserve(room), body_i_.reserve(room), body_j_.reserve(room), row_of_.reserve(room);
+    problem.reserve(room);
+    problem.group.reserve(Colouring::most_colours + 2);
+  }
+
   /// Whether no grain stands twice in a colour (the sequential tail excepted): what threads rely on.
   bool no_grain_twice(const Problem<Y>& problem, int grains) {
     colour_of_.assign(grains, -1);

@@ -70,6 +70,13 @@ struct Problem {
 
   std::size_t size() const { return i.size(); }
 
+  /// Memory for this many contacts.
+  void reserve(std::size_t contacts) {
+    i.reserve(contacts), j.reserve(contacts), normal.reserve(contacts), distance.reserve(contacts);
+    offset.reserve(contacts), wn.reserve(contacts), inverse_wn.reserve(contacts), inverse_wt.reserve(contacts);
+    arm_i.reserve(contacts), arm_j.reserve(contacts);
+  }
+
   void resize(std::size_t contacts) {
     i.resize(contacts), j.resize(contacts), normal.resize(contacts), distance.resize(contacts);
     offset.resize(contacts), wn.resize(contacts), inverse_wn.resize(contacts), inverse_wt.resize(contacts);

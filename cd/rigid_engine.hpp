@@ -212,6 +212,7 @@ class RigidEngine final : public Engine<Y.dim> {
     iterate_.spin = free_.spin;
     iterate_.hub_rate = free_.hub_rate;
     iterate_.gradient = free_.gradient;
+    iterate_.reaction.reserve(problem_.i.capacity());
     iterate_.reaction.resize(problem_.size());
     Mat<D> virial = Mat<D>::Zero();
     for (std::size_t k = 0; k < problem_.size(); ++k) {

@@ -132,6 +132,7 @@ class Nsgs {
   void restart_momentum(const Iterate<Y>& iterate) {
     momentum_ = 1;
     since_restart_ = 0;
+    previous_.reaction.reserve(iterate.reaction.capacity());
     copy_with_room(iterate.reaction, previous_.reaction);
     copy_with_room(iterate.velocity, previous_.velocity);
     if constexpr (Y.friction) copy_with_room(iterate.spin, previous_.spin);

@@ -6,8 +6,11 @@
 
 namespace galet {
 
-void Colouring::colour(std::span<const int> i, std::span<const int> j, int movable) {
+void Colouring::colour(std::span<const int> i, std::span<const int> j, int movable, std::size_t room) {
   const std::size_t contacts = i.size();
+  colour_of_.reserve(room);
+  order.reserve(room);
+  start.reserve(most_colours + 2);
   used_.assign(movable, 0);
   colour_of_.resize(contacts);
   int groups = 0;

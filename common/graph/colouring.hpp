@@ -8,6 +8,7 @@
 // Cost: one pass.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,8 +22,8 @@ struct Colouring {
   bool overflow = false;   ///< the last group is no colour: its contacts share bodies
   int colours() const { return static_cast<int>(start.size()) - 1; }
 
-  /// Colours the contacts (i[k], j[k]); bodies with index >= movable take no part.
-  void colour(std::span<const int> i, std::span<const int> j, int movable);
+  /// Colours the contacts (i[k], j[k]); bodies with index >= movable take no part. Memory is kept for `room` contacts.
+  void colour(std::span<const int> i, std::span<const int> j, int movable, std::size_t room = 0);
 
  private:
   std::vector<std::uint64_t> used_;
