@@ -34,8 +34,8 @@ class RigidEngine final : public Engine<Y.dim> {
 
   RigidEngine(const Scene& scene, const Derived& derived, const Sample<D>& sample)
       : dt_(derived.cd_dt),
-        restitution_(derived.restitution),
-        friction_(derived.friction),
+        restitution_(derived.laws.at(0, 0).restitution),
+        friction_(derived.laws.at(0, 0).friction),
         diameter_(derived.grains.mean_diameter),
         penetration_(scene.cd.penetration * derived.grains.mean_diameter),
         options_{scene.cd.tolerance, scene.cd.max_sweeps} {

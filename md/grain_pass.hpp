@@ -65,23 +65,69 @@ void gather(Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<Y.dim>& lis
   parallel_ranges(bodies.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec<D> force = Vec<D>::Zero();
-      Spin<D> twist = zero_spin<D>();
+      Spin<D> twist = zero_spin<D>(), torque = zero_spin<D>();
       for (int k = second[i]; k < second[i + 1]; ++k) {
         force += contacts.force[rows_of_second[k]];
         if constexpr (Y.friction) twist += contacts.twist[rows_of_second[k]];
+        if constexpr (Y.rolling) torque += contacts.torque[rows_of_second[k]];
       }
       for (int row = first[i]; row < first[i + 1]; ++row) {
         force -= contacts.force[row];
         if constexpr (Y.friction) twist += contacts.twist[row];
+        if constexpr (Y.rolling) torque -= contacts.torque[row];
       }
       acceleration.linear[i] = force / bodies.mass[i] + bodies.gravity - seen.gradient * seen.velocity[i];
       bodies.velocity[i] += kick_dt * acceleration.linear[i];
       if constexpr (Y.friction) {
         acceleration.angular[i] = -bodies.radius[i] / bodies.inertia[i] * twist;
+        if constexpr (Y.rolling) acceleration.angular[i] += torque / bodies.inertia[i];
         bodies.spin[i] += kick_dt * acceleration.angular[i];
       }
     }
   });
+}
+
+/// Ways to an equilibrium that break the balance of momentum.
+struct Relaxers {
+  double drag = 0;  ///< force -drag m v on each grain, torque -drag I w
+  double acceleration_damping =
+      0;  ///< c: forces count 1 - c times where they speed a grain up, 1 + c where they slow it
+  bool on() const { return drag > 0 || acceleration_damping > 0; }
+};
+
+/// What the relaxers make of an acceleration.
+template <class Vector>
+Vector relaxed(const Relaxers& relaxers, const Vector& acceleration, const Vector& velocity, double speeding_up) {
+  const double weight = 1 - relaxers.acceleration_damping * (speeding_up > 0 ? 1 : speeding_up < 0 ? -1 : 0);
+  return weight * acceleration - relaxers.drag * velocity;
+}
+
+/// Applies them after `gather`; returns the power that they take, by chunks in a fixed order.
+template <Layout Y>
+double relax(Bodies<Y>& bodies, const Seen<Y>& seen, const Relaxers& relaxers, Accelerations<Y>& acceleration,
+             double kick_dt, std::vector<double>& partial) {
+  partial.assign(chunk_count(bodies.position.size()), 0.0);
+  parallel_chunks(bodies.position.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    double power = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec<Y.dim> before = acceleration.linear[i], &velocity = seen.velocity[i];
+      acceleration.linear[i] = relaxed(relaxers, before, velocity, before.dot(velocity));
+      const Vec<Y.dim> change = acceleration.linear[i] - before;
+      bodies.velocity[i] += kick_dt * change;
+      power -= bodies.mass[i] * change.dot(velocity);
+      if constexpr (Y.friction) {
+        const Spin<Y.dim> turn = acceleration.angular[i], &spin = seen.spin[i];
+        acceleration.angular[i] = relaxed(relaxers, turn, spin, dot(turn, spin));
+        const Spin<Y.dim> turn_change = acceleration.angular[i] - turn;
+        bodies.spin[i] += kick_dt * turn_change;
+        power -= bodies.inertia[i] * dot(turn_change, spin);
+      }
+    }
+    partial[chunk] = power;
+  });
+  double total = 0;
+  for (const double part : partial) total += part;
+  return total;
 }
 
 /// Sum over the grains of m v (x) v, by chunks (the same bits for any number of threads).

@@ -8,11 +8,14 @@
 
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "common/core/error.hpp"
 #include "common/engine/bodies.hpp"
 #include "common/neighbour/verlet_list.hpp"
 #include "md/contact_pass.hpp"
 #include "md/contacts.hpp"
+#include "md/energy.hpp"
 #include "md/grain_pass.hpp"
 
 namespace galet::md {
@@ -23,7 +26,17 @@ class SoftEngine final : public Engine<Y.dim> {
   static constexpr int D = Y.dim;
 
   SoftEngine(const Scene& scene, const Derived& derived, const Sample<D>& sample)
-      : soft_(*derived.soft), friction_(derived.friction), dt_(*derived.md_dt) {
+      : materials_(derived.laws.materials),
+        range_(derived.laws.cohesion_range()),
+        laws_(derived.laws.pairs),
+        relaxers_{scene.md.drag, scene.md.acceleration_damping},
+        account_(scene.md.energy_budget),
+        dt_(*derived.md_dt) {
+    for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
+    contacts_.varying_stiffness = carried_.varying_stiffness = laws_[0].normal_law == NormalLaw::hertz;
+    kernel_ = {account_ || !plain(), contacts_.varying_stiffness, account_};
+    if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && contacts_.varying_stiffness)
+      stiffest_ = derived.md_stiffest * std::pow(*derived.md_dt_stable / dt_, 2);
     bodies_.start(scene, derived, sample);
     const std::size_t grains = bodies_.position.size();
     seen_.velocity = bodies_.velocity;
@@ -32,7 +45,7 @@ class SoftEngine final : public Engine<Y.dim> {
     acceleration_.linear.assign(grains, Vec<D>::Zero());
     if constexpr (Y.friction) acceleration_.angular.assign(grains, zero_spin<D>());
     acceleration_.modes.assign(bodies_.modes.size(), 0.0);
-    list_.configure(0, 0.15 * derived.grains.mean_diameter);
+    list_.configure(range_, 0.15 * derived.grains.mean_diameter);
     update_neighbours();
     evaluate(0);
   }
@@ -59,18 +72,12 @@ class SoftEngine final : public Engine<Y.dim> {
 
   EnergyParts energy() const override {
     EnergyParts parts = bodies_.energy();
-    for (std::size_t row = 0; row < list_.size(); ++row) {
-      if (!contacts_.touching[row]) continue;
-      const ContactFrame<D> frame = frame_of(row);
-      parts.elastic_normal += 0.5 * soft_.normal_stiffness * frame.gap * frame.gap;
-      if constexpr (Y.friction) {
-        const Vec<D> tangential = contacts_.force[row] - contacts_.force[row].dot(frame.normal) * frame.normal;
-        if (soft_.tangential_stiffness > 0)
-          parts.elastic_tangential += 0.5 * tangential.squaredNorm() / soft_.tangential_stiffness;
-      }
-    }
+    for (std::size_t row = 0; row < list_.size(); ++row)
+      add_contact_energy(contacts_, row, terms_[contacts_.law[row]], frame_of(row), parts);
     return parts;
   }
+
+  EnergyFlows energy_flows() const override { return energy_account_.flows(); }
 
   void save(Archive& archive) const override {
     bodies_.save(archive);
@@ -79,6 +86,7 @@ class SoftEngine final : public Engine<Y.dim> {
     put_column(archive, "md.acceleration", acceleration_.linear);
     if constexpr (Y.friction) put_column(archive, "md.angular_acceleration", acceleration_.angular);
     archive.reals["md.mode_acceleration"] = acceleration_.modes;
+    energy_account_.save(archive);
     archive.reals["md.dt"] = {dt_};
     archive.integers["steps"] = {steps_};
   }
@@ -87,6 +95,8 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
     contacts_.restore(archive, list_.size());
+    set_row_constants();
+    energy_account_.restore(archive);
     take_column(archive, "md.acceleration", acceleration_.linear);
     if constexpr (Y.friction) take_column(archive, "md.angular_acceleration", acceleration_.angular);
     take_column(archive, "md.mode_acceleration", acceleration_.modes);
@@ -95,6 +105,9 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
  private:
+  /// Whether the plain kernels have all the terms that the laws need.
+  bool plain() const { return laws_.size() == 1 && laws_[0].cohesion == 0 && laws_[0].tangential_damping_ratio == 0; }
+
   void step() {
     {
       StageTimer timer(profile_, Stage::grains);
@@ -112,20 +125,46 @@ class SoftEngine final : public Engine<Y.dim> {
 
   /// Forces, accelerations and the closing half kick. `dt`: time since the last evaluation, 0 at the start.
   void evaluate(double dt) {
-    const PassLaw law{
-        soft_.normal_stiffness, soft_.convention, {soft_.tangential_stiffness, friction_, 0.5 * dt, 0.5 * dt_}, dt};
-    Mat<D> virial;
+    const PassLaw law{terms_, range_, 0.5 * dt, 0.5 * dt_, kernel_};
+    PassSums<D> sums;
     {
       StageTimer timer(profile_, Stage::contacts);
-      virial = pass_.run(bodies_, seen_, list_, law, contacts_);
+      sums = pass_.run(bodies_, seen_, list_, law, contacts_);
+      if (steps_ % 128 == 0) check_stiffness();
     }
+    double relaxation = 0;
     {
       StageTimer timer(profile_, Stage::grains);
       gather(bodies_, seen_, list_, contacts_, acceleration_, 0.5 * dt);
+      GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
+      if (relaxers_.on()) relaxation = relax(bodies_, seen_, relaxers_, acceleration_, 0.5 * dt, partial_power_);
     }
-    GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
     StageTimer timer(profile_, Stage::drives);
-    if (bodies_.stress_driven()) accelerate_modes(virial + kinetic_virial(bodies_, partial_), 0.5 * dt);
+    Mat<D> virial = sums.virial;
+    if (bodies_.stress_driven() || account_) virial += kinetic_virial(bodies_, partial_);
+    if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
+    if (!account_) return;
+    const double work = sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume());
+    energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxation}, dt);
+  }
+
+  /// Hertz contacts stiffen as they are pressed: beyond what the time step was derived for the run stops.
+  void check_stiffness() const {
+    if (!contacts_.varying_stiffness || !(stiffest_ > 0)) return;
+    for (std::size_t row = 0; row < list_.size(); ++row) {
+      if (!contacts_.touches(row)) continue;
+      const double deflection = -frame_of(row).gap;
+      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.coefficient[row], deflection);
+      if (!(stiffness > stiffest_)) continue;
+      const PairColumns<D>& pairs = list_.pairs();
+      throw RunError(
+          fmt::format("at time {:.6g} the contact of grain {} and {} {} is deflected by {:.3g}: so stiff a contact "
+                      "needs md.dt <= {:.4g}, "
+                      "it is {:.4g}",
+                      time(), pairs.i[row], pairs.j[row] < bodies_.grains() ? "grain" : "plane",
+                      pairs.j[row] < bodies_.grains() ? pairs.j[row] : pairs.j[row] - bodies_.grains(), deflection,
+                      dt_ * std::sqrt(stiffest_ / stiffness), dt_));
+    }
   }
 
   /// Whether the sum of m (a + L v - gravity) is that of the forces from planes (action and reaction).
@@ -171,13 +210,23 @@ class SoftEngine final : public Engine<Y.dim> {
     std::swap(contacts_, carried_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
     contacts_.carry(carried_, list_);
+    set_row_constants();
+  }
+
+  /// What the laws need of each row's two grains.
+  void set_row_constants() {
     const PairColumns<D>& pairs = list_.pairs();
     for (std::size_t row = 0; row < list_.size(); ++row) {
-      const double mass_i = bodies_.mass[pairs.i[row]];
-      const double reduced = pairs.j[row] < bodies_.grains()
-                                 ? mass_i * bodies_.mass[pairs.j[row]] / (mass_i + bodies_.mass[pairs.j[row]])
-                                 : mass_i;
-      contacts_.damping[row] = soft_.damping_ratio * 2 * std::sqrt(reduced * soft_.normal_stiffness);
+      const int i = pairs.i[row], j = pairs.j[row], grains = bodies_.grains();
+      const bool plane = j >= grains;
+      const double mass = bodies_.mass[i], radius = bodies_.radius[i];
+      const double reduced_mass = plane ? mass : mass * bodies_.mass[j] / (mass + bodies_.mass[j]);
+      const double curvature = plane ? radius : reduced_radius(radius, bodies_.radius[j]);
+      const int other = plane ? bodies_.plane_material[j - grains] : bodies_.material[j];
+      const int law = bodies_.material[i] * materials_ + other;
+      contacts_.law[row] = static_cast<std::uint8_t>(law);
+      contacts_.coefficient[row] = normal_coefficient(laws_[law], curvature);
+      contacts_.critical[row] = critical_damping(terms_[law], contacts_.coefficient[row], reduced_mass);
     }
   }
 
@@ -193,7 +242,7 @@ class SoftEngine final : public Engine<Y.dim> {
   void fill_shown() {
     shown_.clear();
     for (std::size_t row = 0; row < list_.size(); ++row) {
-      if (!contacts_.touching[row]) continue;
+      if (!contacts_.acts(row)) continue;
       const ContactFrame<D> frame = frame_of(row);
       shown_.i.push_back(list_.pairs().i[row]);
       shown_.j.push_back(list_.pairs().j[row]);
@@ -202,11 +251,19 @@ class SoftEngine final : public Engine<Y.dim> {
       shown_.branch.push_back(frame.branch);
       shown_.gap.push_back(frame.gap);
       shown_.force.push_back(contacts_.force[row]);
+      if constexpr (Y.rolling) shown_.torque.push_back(contacts_.torque[row]);
+      if (range_ > 0) shown_.touching.push_back(contacts_.touches(row));
     }
   }
 
-  SoftContact soft_;
-  double friction_;
+  int materials_;
+  double range_;               ///< largest D0
+  std::vector<PairLaw> laws_;  ///< by pair of materials
+  std::vector<PairTerms> terms_;
+  Relaxers relaxers_;
+  bool account_;
+  Kernel kernel_;
+  double stiffest_ = 0;  ///< hertz: K_N that the time step allows; 0: any
   double dt_;
   long steps_ = 0;
 
@@ -218,6 +275,8 @@ class SoftEngine final : public Engine<Y.dim> {
   ContactPass<Y> pass_;
   ContactColumns<D> shown_;
   std::vector<Mat<D>> partial_;
+  std::vector<double> partial_power_;
+  EnergyAccount energy_account_;
   Profile profile_;
 };
 

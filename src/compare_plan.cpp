@@ -15,7 +15,8 @@ std::vector<std::optional<double>> values_or_own(const std::vector<double>& valu
 }
 
 bool has_stiffness(const Scene& scene) {
-  return scene.material.stiffness_level || scene.material.normal_stiffness || !scene.compare.stiffness_levels.empty();
+  const MaterialSpec& material = scene.material;
+  return material.stiffness_level || material.normal_stiffness || material.young_modulus || !scene.compare.stiffness_levels.empty();
 }
 
 Scene in_state(const Scene& scene, std::optional<double> inertial_number) {
@@ -35,6 +36,7 @@ PlannedRow md_row(const Scene& state, std::optional<double> stiffness_level) {
   if (stiffness_level) {
     row.scene.material.stiffness_level = stiffness_level;
     row.scene.material.normal_stiffness.reset();
+    row.scene.material.young_modulus.reset();
     // A fixed md.dt would be unsafe for one level and wasteful for another: each level gets its own step.
     row.scene.md.dt.reset();
   }

@@ -44,7 +44,7 @@ MeasureScale measure_scale(const Derived& derived, bool rigid) {
   scale.diameter = derived.grains.mean_diameter;
   scale.mass = derived.grains.mean_mass;
   scale.shear_rate = derived.shear_rate.value_or(0);
-  scale.normal_stiffness = !rigid && derived.soft ? derived.soft->normal_stiffness : 0;
+  if (!rigid && derived.laws.stiff) scale.law = derived.laws.at(0, 0);
   return scale;
 }
 
@@ -62,9 +62,7 @@ void complete(Measurement& row, const MeasureScale& scale) {
           ? inertial_number(scale.dimension, std::abs(scale.shear_rate), reference, scale.mass, scale.diameter)
           : nothing;
   row[Observable::stiffness_level] =
-      scale.normal_stiffness > 0 && reference > 0
-          ? stiffness_level(scale.dimension, scale.normal_stiffness, reference, scale.diameter)
-          : nothing;
+      scale.law && reference > 0 ? stiffness_level(*scale.law, scale.dimension, reference, scale.diameter) : nothing;
 }
 
 template <int D>

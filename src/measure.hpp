@@ -1,6 +1,8 @@
 // One sample of a running engine: every column of observable.hpp at the end of the last step.
 #pragma once
 
+#include <optional>
+
 #include "common/engine/engine.hpp"
 #include "common/scene/derive.hpp"
 #include "src/observable.hpp"
@@ -11,10 +13,10 @@ namespace galet {
 struct MeasureScale {
   int dimension = 2;
   bool friction = false;
-  double diameter = 1;          ///< d, mean
-  double mass = 1;              ///< m, of a grain of mean diameter
-  double shear_rate = 0;        ///< L_xy imposed; 0 without shear
-  double normal_stiffness = 0;  ///< K_N; 0 for rigid grains
+  double diameter = 1;         ///< d, mean
+  double mass = 1;             ///< m, of a grain of mean diameter
+  double shear_rate = 0;       ///< L_xy imposed; 0 without shear
+  std::optional<PairLaw> law;  ///< of [material], for kappa; none for rigid grains
 };
 
 MeasureScale measure_scale(const Derived& derived, bool rigid);

@@ -106,7 +106,8 @@ void average_derived(Averages& result, const TimeSeries& series, const MeasureSc
   const Estimate& reference = result[scale.shear_rate != 0 ? Observable::sigma_yy : Observable::pressure];
   const double relative = reference.value > 0 ? reference.error / reference.value : 0;
   put(Observable::inertial_number, 0.5 * relative * mean[Observable::inertial_number]);
-  put(Observable::stiffness_level, relative * mean[Observable::stiffness_level]);
+  const double power = scale.law && scale.law->normal_law == NormalLaw::hertz ? 2.0 / 3 : 1;  // kappa ~ P^-power
+  put(Observable::stiffness_level, power * relative * mean[Observable::stiffness_level]);
 }
 
 }  // namespace

@@ -19,12 +19,14 @@ struct Bodies {
   Column<Vec<D>> position;
   Column<Vec<D>> velocity;  ///< fluctuation v
   Column<double> radius, mass;
+  std::vector<int> material;  ///< index into the scene's materials; fixed, hence not part of a checkpoint's state
   Column<Spin<D>, Y.friction> spin;
   Column<double, Y.friction> inertia;  ///< I
 
   Cell<D> cell;
   std::vector<CellMode<D>> modes;
   std::vector<Plane<D>> planes;
+  std::vector<int> plane_material;
   Vec<D> gravity = Vec<D>::Zero();
 
   int grains() const { return static_cast<int>(position.size()); }
@@ -46,6 +48,10 @@ struct Bodies {
     }
     cell = sample.cell;
     planes = sample.planes;
+    material = sample.material;
+    material.resize(position.size(), 0);
+    plane_material = sample.plane_material;
+    plane_material.resize(planes.size(), 0);
     modes = cell_modes<D>(scene, derived, sample);
     if (!modes.empty()) cell.rate = velocity_gradient(modes);
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
@@ -95,11 +101,11 @@ struct Bodies {
     std::vector<double>& points = archive.reals["planes.point"];
     points.clear();
     for (const Plane<D>& plane : planes) append(points, plane.point);
-    archive.integers["layout"] = {Y.dim, Y.friction};
+    archive.integers["layout"] = {Y.dim, Y.friction, Y.rolling};
   }
 
   void restore(const Archive& archive) {
-    if (integer_column(archive, "layout") != std::vector<std::int64_t>{Y.dim, Y.friction})
+    if (integer_column(archive, "layout") != std::vector<std::int64_t>{Y.dim, Y.friction, Y.rolling})
       throw InputError("the checkpoint was written in another layout than " + to_string(Y));
     take_column(archive, "grains.position", position);
     take_column(archive, "grains.velocity", velocity);

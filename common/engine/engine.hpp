@@ -11,15 +11,32 @@
 
 namespace galet {
 
-/// Mechanical energy by form. Elastic parts are zero in the rigid engine.
+/// Mechanical energy by form. Elastic and cohesive parts are zero in the rigid engine.
 struct EnergyParts {
   double kinetic = 0;     ///< sum of m v^2 / 2, fluctuations
   double rotational = 0;  ///< sum of I w^2 / 2
   double cell = 0;        ///< sum of inertia * rate^2 / 2 over the stress-driven modes
   double elastic_normal = 0;
   double elastic_tangential = 0;
-  double gravity = 0;  ///< - sum of m gravity.x
-  double total() const { return kinetic + rotational + cell + elastic_normal + elastic_tangential + gravity; }
+  double elastic_rolling = 0;  ///< rolling and pivoting springs
+  double cohesive = 0;         ///< of attractive forces, zero for grains out of their range
+  double gravity = 0;          ///< - sum of m gravity.x
+  double total() const {
+    return kinetic + rotational + cell + elastic_normal + elastic_tangential + elastic_rolling + cohesive + gravity;
+  }
+};
+
+/// Energy that has entered and left the sample since the start: total() of EnergyParts changes by work - dissipated().
+/// Accounted for only where the scene asks for it (md.energy_budget); zero otherwise.
+struct EnergyFlows {
+  double work = 0;        ///< done on the sample by drives of the cell and by moving planes
+  double viscous = 0;     ///< dissipated by normal and tangential dashpots
+  double sliding = 0;     ///< dissipated by Coulomb sliding
+  double unloading = 0;   ///< tangential elastic energy given up while F_N changes (Mindlin's law)
+  double rolling = 0;     ///< dissipated by plastic rolling
+  double pivoting = 0;    ///< dissipated by plastic pivoting
+  double relaxation = 0;  ///< dissipated by drag and acceleration damping
+  double dissipated() const { return viscous + sliding + unloading + rolling + pivoting + relaxation; }
 };
 
 /// How the contact problems of a cd run went (all zero in md).
@@ -49,6 +66,7 @@ class Engine {
   /// State at the end of the last step. Before the first step the contact columns are empty.
   virtual Snapshot<D> snapshot() = 0;
   virtual EnergyParts energy() const = 0;
+  virtual EnergyFlows energy_flows() const { return {}; }
   virtual SolverSummary solver_summary() const { return {}; }
   virtual const Profile& profile() const = 0;
 

@@ -2,6 +2,7 @@
 // Views stay valid until the engine advances.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,19 +13,26 @@
 
 namespace galet {
 
-/// The contacts that carry a force, one entry each, sorted by (i, j, image).
+/// The pairs that carry a force, one entry each, sorted by (i, j, image): contacts, and with a cohesion of range D0
+/// also pairs that attract each other across a gap.
 /// j >= number of grains means plane j - grains.
 template <int D>
 struct ContactColumns {
   std::vector<int> i, j;
-  std::vector<Image<D>> image;  ///< of j, as seen from i
-  std::vector<Vec<D>> normal;   ///< n, from i to j
-  std::vector<Vec<D>> branch;   ///< b, from i's centre to j's centre (to the contact point on a plane)
-  std::vector<double> gap;      ///< g, negative in overlap
-  std::vector<Vec<D>> force;    ///< F on j (cd: reaction / dt)
+  std::vector<Image<D>> image;         ///< of j, as seen from i
+  std::vector<Vec<D>> normal;          ///< n, from i to j
+  std::vector<Vec<D>> branch;          ///< b, from i's centre to j's centre (to the contact point on a plane)
+  std::vector<double> gap;             ///< g, negative in overlap
+  std::vector<Vec<D>> force;           ///< F on j (cd: reaction / dt)
+  std::vector<Spin<D>> torque;         ///< rolling and pivoting torque on j, in layouts with rolling resistance
+  std::vector<std::uint8_t> touching;  ///< 0 for a pair that attracts across a gap; empty: all touch
 
   std::size_t size() const { return i.size(); }
-  void clear() { i.clear(), j.clear(), image.clear(), normal.clear(), branch.clear(), gap.clear(), force.clear(); }
+  bool touches(std::size_t c) const { return touching.empty() || touching[c] != 0; }
+  void clear() {
+    i.clear(), j.clear(), image.clear(), normal.clear(), branch.clear(), gap.clear(), force.clear();
+    torque.clear(), touching.clear();
+  }
 };
 
 template <int D>

@@ -1,6 +1,7 @@
 // The frame of a contact: what a law needs to know of the geometry. Signs: core/conventions.hpp.
 #pragma once
 
+#include "common/core/inline.hpp"
 #include "common/core/types.hpp"
 #include "common/geometry/plane.hpp"
 
@@ -41,7 +42,7 @@ inline ContactFrame<D> plane_frame(const Vec<D>& position, double radius, const 
 
 /// A vector of the tangent plane of `before`, carried to that of `after` (unit normals) by the smallest rotation that
 /// takes one normal to the other; its norm is kept to rounding.
-inline Vec<3> carried(const Vec<3>& value, const Vec<3>& before, const Vec<3>& after) {
+GALET_INLINE Vec<3> carried(const Vec<3>& value, const Vec<3>& before, const Vec<3>& after) {
   const Vec<3> turned = value - (after.dot(value) / (1 + before.dot(after))) * (before + after);
   return turned - after.dot(turned) * after;  // keeps rounding from building up along the normal
 }

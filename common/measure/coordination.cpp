@@ -18,6 +18,7 @@ Neighbours neighbours(const ContactColumns<D>& contacts, int grains) {
   rows.degree.assign(grains, 0);
   rows.first.assign(grains + 1, 0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!contacts.touches(c)) continue;
     const int i = contacts.i[c], j = contacts.j[c];
     ++rows.degree[i];
     if (j >= grains) continue;
@@ -30,7 +31,7 @@ Neighbours neighbours(const ContactColumns<D>& contacts, int grains) {
   std::vector<int> next(rows.first.begin(), rows.first.end() - 1);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const int i = contacts.i[c], j = contacts.j[c];
-    if (j >= grains) continue;
+    if (j >= grains || !contacts.touches(c)) continue;
     rows.grain[next[i]++] = j;
     rows.grain[next[j]++] = i;
   }
@@ -67,12 +68,13 @@ Coordination coordination(const Snapshot<D>& snapshot, bool friction) {
   const ContactColumns<D>& contacts = *snapshot.contacts;
   const int grains = snapshot.grains();
   Coordination result;
-  result.contacts = static_cast<long>(contacts.size());
   if (grains == 0) return result;
 
   const std::vector<char> rattler = rattlers(snapshot, friction);
   long ends = 0, backbone_ends = 0, backbone_grains = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!contacts.touches(c)) continue;
+    ++result.contacts;
     const int i = contacts.i[c], j = contacts.j[c];
     const int ends_here = j < grains ? 2 : 1;  // a plane is no grain: its end does not count
     ends += ends_here;

@@ -1,4 +1,4 @@
-// Coordination numbers of the force-carrying contact network.
+// Coordination numbers of the force-carrying contact network. (Pairs that attract across a gap are no contacts.)
 //   z  = (2 N_gg + N_gw) / N          all grains; N_gg grain-grain, N_gw grain-wall contacts
 //   z* = the same on the backbone: without rattlers and their contacts, divided by the grains that remain
 // A rattler can't be in equilibrium by its contacts alone: it has fewer than D + 1 (frictionless) or fewer than

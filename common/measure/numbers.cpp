@@ -17,12 +17,15 @@ Overlap overlap(const Snapshot<D>& snapshot) {
   Overlap result;
   if (snapshot.contacts->size() == 0) return result;
   double sum = 0;
-  for (double gap : snapshot.contacts->gap) {
-    const double deflection = std::max(0.0, -gap);
+  long touching = 0;
+  for (std::size_t c = 0; c < snapshot.contacts->size(); ++c) {
+    if (!snapshot.contacts->touches(c)) continue;
+    const double deflection = std::max(0.0, -snapshot.contacts->gap[c]);
     sum += deflection;
+    ++touching;
     result.largest = std::max(result.largest, deflection);
   }
-  result.mean = sum / static_cast<double>(snapshot.contacts->size());
+  if (touching > 0) result.mean = sum / static_cast<double>(touching);
   return result;
 }
 
@@ -35,10 +38,6 @@ double pressure_scale(int dim, double pressure, double mean_diameter) {
 
 double inertial_number(int dim, double rate, double pressure, double mean_mass, double mean_diameter) {
   return std::abs(rate) * std::sqrt(mean_mass / pressure_scale(dim, pressure, mean_diameter));
-}
-
-double stiffness_level(int dim, double normal_stiffness, double pressure, double mean_diameter) {
-  return normal_stiffness / pressure_scale(dim, pressure, mean_diameter);
 }
 
 template double solid_fraction<2>(const Snapshot<2>&);

@@ -2,7 +2,7 @@
 //   Phi = sum of grain volumes / V           mu* = |sigma_xy| / sigma_yy
 //   P   = tr(sigma) / D
 //   I     = |L_xy| sqrt(m / (P d^(D-2)))     with P = sigma_yy in shear (chapter, eq. defI)
-//   kappa = K_N / (P d^(D-2))                (chapter, eq. defkappa, linear law)
+//   kappa: common/scene/pair_law.hpp
 // d and m: mean diameter and mass of a grain of mean diameter.
 #pragma once
 
@@ -33,9 +33,6 @@ double mean_pressure(const Mat<D>& sigma) {
 
 /// I for shear rate `rate` under pressure P (a force per length in 2D).
 double inertial_number(int dim, double rate, double pressure, double mean_mass, double mean_diameter);
-
-/// kappa for the linear law.
-double stiffness_level(int dim, double normal_stiffness, double pressure, double mean_diameter);
 
 extern template double solid_fraction<2>(const Snapshot<2>&);
 extern template double solid_fraction<3>(const Snapshot<3>&);

@@ -2,56 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "common/core/error.hpp"
+#include "common/scene/md_step.hpp"
 #include "common/scene/packing.hpp"
 
 namespace galet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-/// Stability bound of the md step. Elastic part: the stiffest mode of a packing has
-/// omega^2 <= 1.15 z K_N / m_least * max(1, (K_T/K_N) (1 + m R^2/I)), z the largest number of neighbours of the
-/// lightest grain (6 disks, 9 spheres): above every eigenvalue measured for K_T/K_N in 0 .. 0.8. Damping: the normal
-/// damping rate of the stiffest mode is c = alpha z / m_least; with zeta = c / (2 omega) the scheme is stable for
-/// omega dt <= 1 / (0.5 + 1.9 zeta) (a fit below the scheme's own limit for every zeta <= 3).
-double stable_dt(int dim, const SoftContact& soft, double least_mass) {
-  const double neighbours = dim == 2 ? 6 : 9;
-  const double turning = 1 + 1 / (dim == 2 ? inertia_ratio<2> : inertia_ratio<3>);
-  const double ratio = soft.tangential_stiffness / soft.normal_stiffness;
-  const double omega =
-      std::sqrt(1.15 * neighbours * soft.normal_stiffness / least_mass * std::max(1.0, ratio * turning));
-  const double alpha = soft.damping_ratio * 2 * std::sqrt(least_mass / 2 * soft.normal_stiffness);
-  const double zeta = alpha * neighbours / least_mass / (2 * omega);
-  return 1 / (omega * (0.5 + 1.9 * zeta));
-}
-
 double force_scale_power(int dim, double diameter) { return dim == 2 ? 1 : diameter; }
 
 void derive_material(const Scene& scene, Derived& derived) {
-  const MaterialSpec& material = scene.material;
-  derived.friction = material.friction;
-  derived.layout = {scene.dimension, material.friction > 0};
-  const double zeta = material.damping_ratio
-                          ? *material.damping_ratio
-                          : (material.restitution.value_or(1) > 0
-                                 ? damping_of_restitution(material.restitution.value_or(1), material.convention)
-                                 : 1.0);
-  derived.restitution =
-      material.restitution ? *material.restitution : restitution_of_damping(zeta, material.convention);
-  const double d_power = force_scale_power(scene.dimension, derived.grains.mean_diameter);
-  std::optional<double> stiffness = material.normal_stiffness;
-  if (!stiffness && material.stiffness_level && derived.pressure)
-    stiffness = *material.stiffness_level * *derived.pressure * d_power;
-  if (!stiffness) return;
-  derived.soft = SoftContact{*stiffness, material.tangential_stiffness_ratio * *stiffness, zeta, material.convention};
-  if (derived.pressure) derived.stiffness_level = *stiffness / (*derived.pressure * d_power);
+  derived.laws = law_table(scene, derived.pressure, derived.grains.mean_diameter);
+  derived.layout = {scene.dimension, derived.laws.any_rotation(), derived.laws.any_rolling()};
+  if (derived.laws.stiff && derived.pressure)
+    derived.stiffness_level =
+        stiffness_level(derived.laws.at(0, 0), scene.dimension, *derived.pressure, derived.grains.mean_diameter);
 }
 
 void derive_times(const Scene& scene, Derived& derived) {
@@ -74,21 +44,6 @@ void derive_times(const Scene& scene, Derived& derived) {
   } else {
     throw InputError("run: give run.duration, or run.strain with a shear rate");
   }
-}
-
-void derive_md_step(const Scene& scene, Derived& derived) {
-  if (!derived.soft) return;
-  const SoftContact& soft = *derived.soft;
-  derived.collision_time =
-      collision_duration(soft.damping_ratio, soft.convention, derived.grains.mean_mass / 2, soft.normal_stiffness);
-  derived.md_dt_stable = stable_dt(scene.dimension, soft, derived.grains.least_mass);
-  // With strong damping the contact lasts long for reasons that a step must not follow: the undamped duration bounds.
-  const double undamped = collision_duration(0, soft.convention, derived.grains.least_mass / 2, soft.normal_stiffness);
-  const double lightest =
-      collision_duration(soft.damping_ratio, soft.convention, derived.grains.least_mass / 2, soft.normal_stiffness);
-  derived.md_dt = scene.md.dt
-                      ? *scene.md.dt
-                      : std::min({std::min(undamped, lightest) / scene.md.steps_per_contact, *derived.md_dt_stable});
 }
 
 /// Shortest of the times in which something moves by its own size.
@@ -205,46 +160,50 @@ std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, 
   return modes;
 }
 
-// ---- restitution of the linear law -------------------------------------------------------------------------
-
-double restitution_of_damping(double zeta, DampingConvention convention) {
-  if (zeta == 0) return 1;
-  if (convention == DampingConvention::elastic) return zeta < 1 ? std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
-  // Both branches meet at zeta = 1, where e = exp(-2); near it the closed forms are 0/0, the limit is exact to 1e-9.
-  if (std::abs(zeta - 1) < 1e-9) return std::exp(-2.0);
-  if (zeta < 1) return std::exp(-zeta / std::sqrt(1 - zeta * zeta) * (pi - 2 * std::asin(zeta)));
-  return std::exp(-2 * zeta * std::acosh(zeta) / std::sqrt(zeta * zeta - 1));
-}
-
-double damping_of_restitution(double e, DampingConvention convention) {
-  require(e > 0 && e <= 1, "restitution must be in (0, 1]");
-  if (e == 1) return 0;
-  if (convention == DampingConvention::elastic) {
-    const double log_e = std::log(e);
-    return -log_e / std::sqrt(pi * pi + log_e * log_e);
-  }
-  // e falls monotonically with zeta, like zeta^-2 at large zeta.
-  double low = 0, high = 1;
-  while (restitution_of_damping(high, convention) > e) high *= 2;
-  for (int k = 0; k < 200 && high - low > 1e-16 * high; ++k) {
-    const double middle = 0.5 * (low + high);
-    (restitution_of_damping(middle, convention) > e ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-double collision_duration(double zeta, DampingConvention convention, double reduced_mass, double stiffness) {
-  const double omega = std::sqrt(stiffness / reduced_mass);
-  if (convention == DampingConvention::elastic) {
-    // An overdamped pair never separates: its slow relaxation time stands for the duration.
-    return zeta < 1 ? pi / (omega * std::sqrt(1 - zeta * zeta)) : 2 * pi * zeta / omega;
-  }
-  if (std::abs(zeta - 1) < 1e-9) return 2 / omega;
-  if (zeta < 1) return (pi - 2 * std::asin(zeta)) / (omega * std::sqrt(1 - zeta * zeta));
-  return 2 * std::acosh(zeta) / (omega * std::sqrt(zeta * zeta - 1));
-}
-
 // ---- explanation -------------------------------------------------------------------------------------------
+
+namespace {
+
+void explain_laws(const Scene& scene, const Derived& derived, std::vector<DerivedLine>& lines) {
+  const LawTable& laws = derived.laws;
+  const MaterialSpec& material = scene.material;
+  const bool hertz = material.normal_law == NormalLaw::hertz;
+  std::vector<std::string> names{material.name};
+  for (const OtherMaterial& other : scene.other_materials) names.push_back(other.name);
+  for (int a = 0; a < laws.materials; ++a)
+    for (int b = a; b < laws.materials; ++b) {
+      const PairLaw& law = laws.at(a, b);
+      const std::string of = laws.materials > 1 ? fmt::format(" ({}, {})", names[a], names[b]) : "";
+      const auto add = [&](const char* symbol, double value, const char* from) {
+        lines.push_back({symbol + of, fmt::format("{:.6g}", value), from});
+      };
+      const char* mixed = a == b ? "the material's" : "mixed, or as given for the pair";
+      add("mu", law.friction, mixed);
+      add("e", law.restitution, "of a head-on collision, exact for the law");
+      if (!laws.stiff) continue;
+      add("zeta", law.damping_ratio, material.damping_ratio ? mixed : "inverted so that a collision has exactly e");
+      if (law.tangential_damping_ratio > 0) add("zeta_T", law.tangential_damping_ratio, "tangential_damping_ratio");
+      add(hertz ? "E*" : "K_N", law.stiffness,
+          hertz                       ? "1/E* = sum of (1 - nu^2)/E"
+          : material.normal_stiffness ? mixed
+                                      : "kappa P d^(D-2)");
+      add("K_T/K_N", law.tangential_ratio, hertz ? "4 G*/E*, from nu" : "tangential_stiffness_ratio");
+      if (law.rolling_friction > 0) add("mu_R", law.rolling_friction, mixed);
+      if (law.pivoting_friction > 0) add("mu_P", law.pivoting_friction, mixed);
+      if (law.cohesion > 0) add("F0", law.cohesion, material.cohesion_number ? "eta P d^(D-1)" : mixed);
+      if (law.cohesion_range > 0) add("D0", law.cohesion_range, "cohesion_range");
+    }
+  if (derived.stiffness_level)
+    lines.push_back({"kappa", fmt::format("{:.6g}", *derived.stiffness_level),
+                     hertz ? "(E / ((1 - nu^2) P))^(2/3)" : "K_N / (P d^(D-2))"});
+  if (derived.pressure && laws.at(0, 0).cohesion > 0)
+    lines.push_back({"eta",
+                     fmt::format("{:.6g}", laws.at(0, 0).cohesion / *derived.pressure /
+                                               std::pow(derived.grains.mean_diameter, scene.dimension - 1)),
+                     "F0 / (P d^(D-1))"});
+}
+
+}  // namespace
 
 std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   std::vector<DerivedLine> lines;
@@ -258,19 +217,12 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   add("d_max/d_min", grains.largest_diameter / grains.least_diameter, "of the grains drawn");
   add("m", grains.mean_mass, "mass of a grain of diameter d");
   add("P", derived.pressure, "loading.pressure");
-  add("mu", derived.friction, "material.friction");
-  add("e", derived.restitution, scene.material.restitution ? "material.restitution" : "from zeta, exact for the law");
-  if (derived.soft) {
-    add("zeta", derived.soft->damping_ratio,
-        scene.material.damping_ratio ? "material.damping_ratio" : "inverted so that a collision has exactly e");
-    add("K_N", derived.soft->normal_stiffness,
-        scene.material.normal_stiffness ? "material.normal_stiffness" : "kappa P d^(D-2)");
-    add("K_T", derived.soft->tangential_stiffness, "K_N * tangential_stiffness_ratio");
-  }
-  add("kappa", derived.stiffness_level, "K_N / (P d^(D-2))");
+  explain_laws(scene, derived, lines);
   add("tau_i", derived.inertial_time, "inertial time sqrt(m / (P d^(D-2)))");
   add("shear rate", derived.shear_rate, "I / tau_i or as given");
   add("I", derived.inertial_number, "shear rate * tau_i");
+  if (scene.material.normal_law == NormalLaw::hertz)
+    add("K_N typical", derived.contact_stiffness, "dF_N/dh where pressure, weight, cohesion or impacts press contacts");
   add("tau_c", derived.collision_time, "duration of a head-on collision of two mean grains");
   add("duration", derived.duration, "simulated time");
   add("md dt", derived.md_dt,

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/core/layout.hpp"
+#include "common/scene/pair_law.hpp"
+#include "common/scene/restitution.hpp"
 #include "common/scene/sample.hpp"
 #include "common/scene/scene.hpp"
 
@@ -26,28 +28,20 @@ struct GrainFacts {
 template <int D>
 GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample);
 
-/// Elastic and viscous constants of one material, as the md engine uses them.
-struct SoftContact {
-  double normal_stiffness = 0;      ///< K_N
-  double tangential_stiffness = 0;  ///< K_T
-  double damping_ratio = 0;         ///< zeta
-  DampingConvention convention = DampingConvention::elastic;
-};
-
 struct Derived {
   Layout layout{2, false};
   GrainFacts grains;
-  double friction = 0;
-  double restitution = 0;                 ///< e
-  std::optional<SoftContact> soft;        ///< absent when the scene says nothing about stiffness
+  LawTable laws;                          ///< of each pair of materials
   std::optional<double> pressure;         ///< P
-  std::optional<double> stiffness_level;  ///< kappa = K_N / (P d^(D-2))
+  std::optional<double> stiffness_level;  ///< kappa of [material]
   std::optional<double> shear_rate;
-  std::optional<double> inertial_number;  ///< I = shear_rate sqrt(m / (P d^(D-2)))
-  std::optional<double> inertial_time;    ///< tau_i = sqrt(m / (P d^(D-2)))
-  std::optional<double> collision_time;   ///< tau_c of two grains of mean mass
-  std::optional<double> md_dt;            ///< time step of md
-  std::optional<double> md_dt_stable;     ///< its stability bound
+  std::optional<double> inertial_number;    ///< I = shear_rate sqrt(m / (P d^(D-2)))
+  std::optional<double> inertial_time;      ///< tau_i = sqrt(m / (P d^(D-2)))
+  std::optional<double> contact_stiffness;  ///< K_N of a typical contact (hertz: at the deflection expected)
+  std::optional<double> collision_time;     ///< tau_c of two grains of mean mass with that stiffness
+  std::optional<double> md_dt;              ///< time step of md
+  std::optional<double> md_dt_stable;       ///< its stability bound
+  double md_stiffest = 0;                   ///< K_N that the bound allows for
   double cd_dt = 0;
   double duration = 0;  ///< simulated time of the run
 };
@@ -66,18 +60,6 @@ struct DerivedLine {
   std::string from;
 };
 std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived);
-
-/// Restitution of a head-on collision with linear stiffness and damping ratio zeta (damping constant
-/// alpha = zeta * 2 sqrt(m* K_N)); e = exp(-pi zeta / sqrt(1 - zeta^2)) for `elastic`,
-/// e = exp(-(zeta/s) (pi - 2 asin zeta)), s = sqrt(1 - zeta^2), for `total` (Schwager and Poschel 2007; its
-/// continuation above zeta = 1). Zero for `elastic` with zeta >= 1.
-double restitution_of_damping(double zeta, DampingConvention convention);
-
-/// Its inverse: zeta for which the collision has restitution e, 0 < e <= 1.
-double damping_of_restitution(double e, DampingConvention convention);
-
-/// Duration of that collision for reduced mass m* and stiffness K.
-double collision_duration(double zeta, DampingConvention convention, double reduced_mass, double stiffness);
 
 extern template GrainFacts grain_facts<2>(const Scene&, const Sample<2>&);
 extern template GrainFacts grain_facts<3>(const Scene&, const Sample<3>&);

@@ -19,6 +19,8 @@ struct Sample {
   std::vector<Spin<D>> spin;     ///< angular velocity
   std::vector<double> radius;
   std::vector<double> mass;
+  std::vector<int> material;        ///< index: 0 is [material], 1.. the scene's further materials
+  std::vector<int> plane_material;  ///< the same, one per plane; empty: all 0
 
   int count() const { return static_cast<int>(position.size()); }
   void resize(int count) {
@@ -27,6 +29,7 @@ struct Sample {
     spin.assign(count, zero_spin<D>());
     radius.assign(count, 0.5);
     mass.assign(count, 1.0);
+    material.assign(count, 0);
   }
   /// Volume (area) of the grains' matter.
   double solid_volume() const {

@@ -27,6 +27,13 @@ struct ListedGrain {
   std::vector<double> velocity;  ///< D components, or empty for rest
   std::vector<double> spin;      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
+  std::string material;  ///< name; empty: [material]
+};
+
+/// Grains (by number) that are of a further material: [[group]] entries. Who belongs to a group is drawn from the seed.
+struct GroupSpec {
+  std::string material;
+  double fraction = 0;  ///< share of the grains by number, in (0, 1]
 };
 
 struct GrainSpec {
@@ -35,21 +42,59 @@ struct GrainSpec {
   std::optional<double> density;  ///< mass per volume (area in 2D) of the grains' matter
   std::optional<double> mass;     ///< mass of a grain of mean diameter (excludes density); default 1
   std::vector<ListedGrain> listed;
+  std::vector<GroupSpec> groups;  ///< drawn grains only
+};
+
+enum class NormalLaw {
+  linear,  ///< F_N = K_N h
+  hertz    ///< F_N = (4/3) E* sqrt(R*) h^(3/2)
 };
 
 enum class DampingConvention {
   elastic,  ///< only the elastic parts enter Coulomb's inequality; the total normal force may be attractive
-  total     ///< viscous parts are added before; the total normal force is clipped at 0
+  total     ///< viscous parts are added before; the repulsive part is clipped at 0
 };
 
+enum class CohesionLaw {
+  constant,    ///< -F0 in contact, -F0 (1 - g / D0) across a gap g < D0
+  square_root  ///< -sqrt(4 K_N F0 h) in contact (linear law only)
+};
+
+/// The material of every grain and plane that names no other.
 struct MaterialSpec {
-  double friction = 0;                      ///< Coulomb coefficient mu >= 0
-  std::optional<double> restitution;        ///< e in [0, 1] (md: (0, 1])
-  std::optional<double> damping_ratio;      ///< zeta >= 0 (excludes restitution)
-  std::optional<double> stiffness_level;    ///< kappa = K_N / (P d^(D-2)); needs a pressure
-  std::optional<double> normal_stiffness;   ///< K_N > 0 (excludes stiffness_level)
-  double tangential_stiffness_ratio = 0.5;  ///< K_T / K_N
-  DampingConvention convention = DampingConvention::elastic;
+  std::string name = "default";                      ///< how pairs, groups, grains and planes refer to it
+  double friction = 0;                               ///< Coulomb coefficient mu >= 0
+  std::optional<double> restitution;                 ///< e in [0, 1] (md: (0, 1])
+  std::optional<double> damping_ratio;               ///< zeta >= 0 (excludes restitution)
+  double tangential_damping_ratio = 0;               ///< zeta_T >= 0: tangential viscosity / its own critical value
+  NormalLaw normal_law = NormalLaw::linear;          ///< of all materials
+  std::optional<double> stiffness_level;             ///< kappa; needs a pressure (linear: K_N / (P d^(D-2)))
+  std::optional<double> normal_stiffness;            ///< linear: K_N > 0 (excludes stiffness_level)
+  std::optional<double> young_modulus;               ///< hertz: E > 0 (excludes stiffness_level)
+  std::optional<double> poisson_ratio;               ///< hertz: nu in (-1, 1/2]
+  std::optional<double> tangential_stiffness_ratio;  ///< K_T / K_N; linear: default 1/2; hertz: from nu
+  DampingConvention convention = DampingConvention::elastic;  ///< of all materials
+  double rolling_friction = 0;                                ///< mu_R >= 0, a length
+  double pivoting_friction = 0;                               ///< 3D: the same for rotation about the normal, a length
+  double rolling_stiffness_ratio = 1;                         ///< K_R / (K_N mu_R^2); the same for pivoting
+  CohesionLaw cohesion_law = CohesionLaw::constant;           ///< of all materials
+  std::optional<double> cohesion_force;                       ///< F0 > 0
+  std::optional<double> cohesion_number;                      ///< eta = F0 / (P d^(D-1)) (excludes cohesion_force)
+  double cohesion_range = 0;                                  ///< D0 >= 0, constant law; of all materials
+};
+
+/// A further material; what it leaves out is as in [material].
+struct OtherMaterial {
+  std::string name;
+  std::optional<double> density;  ///< of its grains (default: as the other grains)
+  std::optional<double> friction, restitution, damping_ratio, normal_stiffness, stiffness_level, young_modulus,
+      poisson_ratio, tangential_stiffness_ratio, rolling_friction, pivoting_friction, cohesion_force;
+};
+
+/// What holds between two materials in place of the mixing rules (see derive.hpp).
+struct MaterialPair {
+  std::vector<std::string> between;  ///< two names; may be the same
+  std::optional<double> friction, restitution, normal_stiffness, rolling_friction, pivoting_friction, cohesion_force;
 };
 
 enum class InitialKind {
@@ -80,6 +125,7 @@ struct PlaneSpec {
   std::vector<double> point;
   std::vector<double> normal;
   std::vector<double> velocity;  ///< imposed; empty: at rest
+  std::string material = {};     ///< name; empty: [material]
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
@@ -112,6 +158,11 @@ struct MdSpec {
   std::optional<double> dt;       ///< default: derived (see derive.hpp)
   double steps_per_contact = 50;  ///< default dt = duration of the stiffest collision / this
   bool allow_unsafe_dt = false;   ///< run although dt is above the stability bound
+  bool energy_budget = false;     ///< account for work and dissipation by channel
+  // Relaxers: they break the conservation of momentum and serve only to reach an equilibrium sooner.
+  double drag = 0;                  ///< -drag m v on each grain (1 / time), likewise on spins
+  double acceleration_damping = 0;  ///< c in [0, 1): forces are weighted by 1 - c where they speed a grain up, 1 + c
+                                    ///< where they slow it down
 };
 
 struct CdSpec {
@@ -149,6 +200,8 @@ struct Scene {
   EngineKind engine = EngineKind::md;
   GrainSpec grains;
   MaterialSpec material;
+  std::vector<OtherMaterial> other_materials;
+  std::vector<MaterialPair> pairs;
   InitialSpec initial;
   CellSpec cell;
   std::vector<PlaneSpec> planes;

@@ -42,7 +42,7 @@ struct Outlook {
 
 void add_notes(Outlook& outlook) {
   const Derived& derived = outlook.derived;
-  if (!derived.soft) outlook.notes.push_back("md can't run it: the scene says nothing about stiffness");
+  if (!derived.laws.stiff) outlook.notes.push_back("md can't run it: the scene says nothing about stiffness");
   if (derived.md_dt && derived.md_dt_stable && *derived.md_dt > *derived.md_dt_stable)
     outlook.notes.push_back(fmt::format(
         "md.dt is above its stability bound {:.4g}{}", *derived.md_dt_stable,

@@ -11,6 +11,7 @@
 #include "common/measure/block_average.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
+#include "common/scene/pair_law.hpp"
 #include "common/measure/stress.hpp"
 #include "common/measure/velocity_profile.hpp"
 #include "tests/support/brute_force.hpp"
@@ -207,11 +208,24 @@ TEST(Measure, ControlNumbersHaveNoUnits) {
     const double pressure_unit = dim == 2 ? m / (t * t) : m / (l * t * t);
     EXPECT_NEAR(inertial_number(dim, 0.2 / t, 0.5 * pressure_unit, 1.5 * m, 0.8 * l),
                 inertial_number(dim, -0.2, 0.5, 1.5, 0.8), 1e-15);
-    EXPECT_NEAR(stiffness_level(dim, 100 * m / (t * t), 0.5 * pressure_unit, 0.8 * l),
-                stiffness_level(dim, 100, 0.5, 0.8), 1e-11);
+    PairLaw law, rescaled;
+    law.stiffness = 100, rescaled.stiffness = 100 * m / (t * t);
+    EXPECT_NEAR(stiffness_level(rescaled, dim, 0.5 * pressure_unit, 0.8 * l), stiffness_level(law, dim, 0.5, 0.8),
+                1e-11);
+    // The modulus of a hertzian law is a force per area in both dimensions.
+    law.normal_law = rescaled.normal_law = NormalLaw::hertz;
+    rescaled.stiffness = 100 * m / (l * t * t);
+    EXPECT_NEAR(stiffness_level(rescaled, dim, 0.5 * pressure_unit, 0.8 * l), stiffness_level(law, dim, 0.5, 0.8),
+                1e-11);
   }
   EXPECT_DOUBLE_EQ(inertial_number(2, 0.2, 0.25, 1, 9), 0.4);
-  EXPECT_DOUBLE_EQ(stiffness_level(3, 100, 0.25, 2), 200);
+  PairLaw law;
+  law.stiffness = 100;
+  EXPECT_DOUBLE_EQ(stiffness_level(law, 3, 0.25, 2), 200);
+  // Glass at 1 kPa (the chapter): E = 70 GPa, nu = 0.3, kappa = 181000.
+  law.normal_law = NormalLaw::hertz;
+  law.stiffness = 70e9 / (2 * (1 - 0.09));
+  EXPECT_NEAR(stiffness_level(law, 3, 1e3, 1e-3), 181000, 500);
 }
 
 TEST(VelocityProfile, AffineFlowOfALattice) {

@@ -127,7 +127,7 @@ TEST(Averages, TakeTheLastPartOfTheRun) {
 TEST(Averages, NumbersFollowFromTheMeanStress) {
   MeasureScale scale;
   scale.shear_rate = 0.1;
-  scale.normal_stiffness = 1000;
+  scale.law.emplace().stiffness = 1000;
   TimeSeries series;
   for (int r = 1; r <= 4; ++r) {
     Measurement row;
