@@ -215,10 +215,10 @@ class ContactPass {
                                     int j, std::size_t row) {
       if constexpr (D == 3) {
         const Vec<3> spins = j < bodies.grains() ? Vec<3>(seen.spin[i] + seen.spin[j]) : seen.spin[i];
-        const double twist = spins.dot(frame.normal) * law.half_before;
+        const Vec<3> turn = law.half_before * spins;
         const Vec<3>& before = contacts.normal[row];
-        contacts.spring[row] = transport(contacts.spring[row], before, frame.normal, twist);
-        if constexpr (Y.rolling) contacts.rolling[row] = transport(contacts.rolling[row], before, frame.normal, twist);
+        contacts.spring[row] = transport(contacts.spring[row], before, frame.normal, turn);
+        if constexpr (Y.rolling) contacts.rolling[row] = transport(contacts.rolling[row], before, frame.normal, turn);
       }
       if (!varying()) return;
       const double before = contacts.stiffness_before[row], step = law.half_before + law.half_after;

@@ -27,7 +27,7 @@ struct ListedGrain {
   std::vector<double> velocity;  ///< D components, or empty for rest
   std::vector<double> spin;      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
-  std::string material;  ///< name; empty: [material]
+  std::string material = {};  ///< name; empty: [material]
 };
 
 /// Grains (by number) that are of a further material: [[group]] entries. Who belongs to a group is drawn from the seed.
