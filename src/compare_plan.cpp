@@ -16,7 +16,8 @@ std::vector<std::optional<double>> values_or_own(const std::vector<double>& valu
 
 bool has_stiffness(const Scene& scene) {
   const MaterialSpec& material = scene.material;
-  return material.stiffness_level || material.normal_stiffness || material.young_modulus || !scene.compare.stiffness_levels.empty();
+  return material.stiffness_level || material.normal_stiffness || material.young_modulus ||
+         !scene.compare.stiffness_levels.empty();
 }
 
 Scene in_state(const Scene& scene, std::optional<double> inertial_number) {

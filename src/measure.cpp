@@ -31,8 +31,21 @@ void put_energy(Measurement& row, const EnergyParts& energy, int grains) {
   row[Observable::cell] = energy.cell;
   row[Observable::elastic_normal] = energy.elastic_normal;
   row[Observable::elastic_tangential] = energy.elastic_tangential;
+  row[Observable::elastic_rolling] = energy.elastic_rolling;
+  row[Observable::cohesive] = energy.cohesive;
   row[Observable::gravity] = energy.gravity;
   row[Observable::kinetic_per_grain] = (energy.kinetic + energy.rotational) / grains;
+}
+
+void put_budget(Measurement& row, const EnergyFlows& flows, double change) {
+  row[Observable::work] = flows.work;
+  row[Observable::dissipated_viscous] = flows.viscous;
+  row[Observable::dissipated_sliding] = flows.sliding;
+  row[Observable::dissipated_unloading] = flows.unloading;
+  row[Observable::dissipated_rolling] = flows.rolling;
+  row[Observable::dissipated_pivoting] = flows.pivoting;
+  row[Observable::dissipated_relaxation] = flows.relaxation;
+  row[Observable::energy_residual] = change - flows.work + flows.dissipated();
 }
 
 }  // namespace
@@ -84,7 +97,9 @@ Measurement measure(Engine<D>& engine, const MeasureScale& scale) {
   row[Observable::largest_overlap] = depth.largest / scale.diameter;
   row[Observable::peak_overlap] = depth.largest / scale.diameter;
 
-  put_energy(row, engine.energy(), snapshot.grains());
+  const EnergyParts energy = engine.energy();
+  put_energy(row, energy, snapshot.grains());
+  put_budget(row, engine.energy_flows(), energy.total() - scale.energy_at_start);
   complete(row, scale);
   return row;
 }

@@ -17,6 +17,7 @@ struct MeasureScale {
   double mass = 1;             ///< m, of a grain of mean diameter
   double shear_rate = 0;       ///< L_xy imposed; 0 without shear
   std::optional<PairLaw> law;  ///< of [material], for kappa; none for rigid grains
+  double energy_at_start = 0;  ///< total energy that the budget starts from
 };
 
 MeasureScale measure_scale(const Derived& derived, bool rigid);

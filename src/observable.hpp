@@ -31,7 +31,17 @@ enum class Observable {
   cell,
   elastic_normal,
   elastic_tangential,
+  elastic_rolling,
+  cohesive,
   gravity,
+  work,
+  dissipated_viscous,
+  dissipated_sliding,
+  dissipated_unloading,
+  dissipated_rolling,
+  dissipated_pivoting,
+  dissipated_relaxation,
+  energy_residual,
   inertial_number,
   stiffness_level,
   count
@@ -47,40 +57,56 @@ enum class Reduction {
   derived   ///< computed from the other columns of the row
 };
 
+/// Where an observable is a column.
+enum class Shown { always, in_3d, with_budget /**< only where md accounts for energy */ };
+
 struct ObservableInfo {
   std::string_view name;
   Reduction reduction;
-  bool only_3d;
+  Shown shown;
   std::string_view meaning;
 };
 
 inline constexpr std::array<ObservableInfo, observable_count> observable_table = {{
-    {"time", Reduction::latest, false, "simulated time"},
-    {"strain", Reduction::latest, false, "shear strain, L_xy times time; 0 without imposed shear"},
-    {"sigma_xx", Reduction::mean, false, "stress, positive in compression"},
-    {"sigma_yy", Reduction::mean, false, "stress"},
-    {"sigma_zz", Reduction::mean, true, "stress"},
-    {"sigma_xy", Reduction::mean, false, "stress"},
-    {"sigma_xz", Reduction::mean, true, "stress"},
-    {"sigma_yz", Reduction::mean, true, "stress"},
-    {"mu_star", Reduction::derived, false, "|sigma_xy| / sigma_yy"},
-    {"pressure", Reduction::derived, false, "mean normal stress, tr(sigma) / D"},
-    {"Phi", Reduction::mean, false, "solid fraction"},
-    {"z", Reduction::mean, false, "coordination number, all grains"},
-    {"z_star", Reduction::mean, false, "coordination number without rattlers"},
-    {"rattler_fraction", Reduction::mean, false, "share of the grains that carry no force network"},
-    {"mean_overlap", Reduction::mean, false, "mean overlap of the contacts, in units of d"},
-    {"largest_overlap", Reduction::mean, false, "largest overlap of a sample, in units of d; mean over the samples"},
-    {"peak_overlap", Reduction::largest, false, "largest overlap of all samples, in units of d"},
-    {"kinetic_per_grain", Reduction::mean, false, "kinetic energy of fluctuations and rotations per grain"},
-    {"kinetic", Reduction::mean, false, "energy: translation fluctuations"},
-    {"rotational", Reduction::mean, false, "energy: rotations"},
-    {"cell", Reduction::mean, false, "energy: stress-driven motion of the cell"},
-    {"elastic_normal", Reduction::mean, false, "energy: normal deflections"},
-    {"elastic_tangential", Reduction::mean, false, "energy: tangential deflections"},
-    {"gravity", Reduction::mean, false, "energy: gravity"},
-    {"I", Reduction::derived, false, "inertial number as realised"},
-    {"kappa", Reduction::derived, false, "stiffness level as realised; none for rigid grains"},
+    {"time", Reduction::latest, Shown::always, "simulated time"},
+    {"strain", Reduction::latest, Shown::always, "shear strain, L_xy times time; 0 without imposed shear"},
+    {"sigma_xx", Reduction::mean, Shown::always, "stress, positive in compression"},
+    {"sigma_yy", Reduction::mean, Shown::always, "stress"},
+    {"sigma_zz", Reduction::mean, Shown::in_3d, "stress"},
+    {"sigma_xy", Reduction::mean, Shown::always, "stress"},
+    {"sigma_xz", Reduction::mean, Shown::in_3d, "stress"},
+    {"sigma_yz", Reduction::mean, Shown::in_3d, "stress"},
+    {"mu_star", Reduction::derived, Shown::always, "|sigma_xy| / sigma_yy"},
+    {"pressure", Reduction::derived, Shown::always, "mean normal stress, tr(sigma) / D"},
+    {"Phi", Reduction::mean, Shown::always, "solid fraction"},
+    {"z", Reduction::mean, Shown::always, "coordination number, all grains"},
+    {"z_star", Reduction::mean, Shown::always, "coordination number without rattlers"},
+    {"rattler_fraction", Reduction::mean, Shown::always, "share of the grains that carry no force network"},
+    {"mean_overlap", Reduction::mean, Shown::always, "mean overlap of the contacts, in units of d"},
+    {"largest_overlap", Reduction::mean, Shown::always,
+     "largest overlap of a sample, in units of d; mean over the samples"},
+    {"peak_overlap", Reduction::largest, Shown::always, "largest overlap of all samples, in units of d"},
+    {"kinetic_per_grain", Reduction::mean, Shown::always, "kinetic energy of fluctuations and rotations per grain"},
+    {"kinetic", Reduction::mean, Shown::always, "energy: translation fluctuations"},
+    {"rotational", Reduction::mean, Shown::always, "energy: rotations"},
+    {"cell", Reduction::mean, Shown::always, "energy: stress-driven motion of the cell"},
+    {"elastic_normal", Reduction::mean, Shown::always, "energy: normal deflections"},
+    {"elastic_tangential", Reduction::mean, Shown::always, "energy: tangential deflections"},
+    {"elastic_rolling", Reduction::mean, Shown::always, "energy: rolling and pivoting springs"},
+    {"cohesive", Reduction::mean, Shown::always, "energy: attraction of grains, zero out of its range"},
+    {"gravity", Reduction::mean, Shown::always, "energy: gravity"},
+    {"work", Reduction::latest, Shown::with_budget, "energy done on the sample by drives and moving planes so far"},
+    {"dissipated_viscous", Reduction::latest, Shown::with_budget, "energy dissipated so far by dashpots"},
+    {"dissipated_sliding", Reduction::latest, Shown::with_budget, "energy dissipated so far by sliding"},
+    {"dissipated_unloading", Reduction::latest, Shown::with_budget,
+     "tangential elastic energy given up so far while normal forces change (hertz)"},
+    {"dissipated_rolling", Reduction::latest, Shown::with_budget, "energy dissipated so far by plastic rolling"},
+    {"dissipated_pivoting", Reduction::latest, Shown::with_budget, "energy dissipated so far by plastic pivoting"},
+    {"dissipated_relaxation", Reduction::latest, Shown::with_budget, "energy taken so far by relaxers"},
+    {"energy_residual", Reduction::latest, Shown::with_budget,
+     "all energy - that at the start - work + dissipated: the error of the budget"},
+    {"I", Reduction::derived, Shown::always, "inertial number as realised"},
+    {"kappa", Reduction::derived, Shown::always, "stiffness level as realised; none for rigid grains"},
 }};
 
 inline const ObservableInfo& info(Observable observable) { return observable_table[static_cast<int>(observable)]; }

@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;  // keeps the order in which keys are writt
 
 bool averaged(int k, int dimension) {
   const auto observable = static_cast<Observable>(k);
-  return observable != Observable::time && observable != Observable::strain && shown(observable, dimension);
+  // Sums since the start have no mean: the budget is shown by itself.
+  return observable != Observable::time && observable != Observable::strain && shown(observable, dimension, false);
 }
 
 Json averages_json(const RunResult& result) {
@@ -31,7 +32,7 @@ Json averages_json(const RunResult& result) {
 Json last_json(const RunResult& result) {
   Json json;
   for (int k = 0; k < observable_count; ++k)
-    if (shown(static_cast<Observable>(k), result.layout.dim))
+    if (shown(static_cast<Observable>(k), result.layout.dim, result.series.budget))
       json[std::string(observable_table[k].name)] = result.last.values[k];
   return json;
 }
@@ -98,6 +99,26 @@ std::string to_json(const RunResult& result, const std::string& scene) {
   return json.dump(2);
 }
 
+namespace {
+
+/// Work, what became of it, and the error of the account, as shares of what was dissipated.
+std::string budget_text(const Measurement& last) {
+  double dissipated = 0;
+  std::string channels;
+  const std::string_view prefix = "dissipated_";
+  for (int k = 0; k < observable_count; ++k)
+    if (observable_table[k].name.starts_with(prefix)) dissipated += last.values[k];
+  for (int k = 0; k < observable_count; ++k)
+    if (observable_table[k].name.starts_with(prefix) && last.values[k] != 0)
+      channels += fmt::format(", {} {:.1f} %", observable_table[k].name.substr(prefix.size()),
+                              100 * last.values[k] / dissipated);
+  return fmt::format("energy budget: work {:.6g}, dissipated {:.6g}{}; residual {:.2g}\n", last[Observable::work],
+                     dissipated, channels.empty() ? "" : " (" + channels.substr(2) + ")",
+                     last[Observable::energy_residual]);
+}
+
+}  // namespace
+
 std::string summary(const RunResult& result) {
   std::string text = fmt::format("{}: {} of {} steps, dt = {:g}, time {:g}, strain {:g}\n", to_string(result.ending),
                                  result.steps, result.total_steps, result.dt, result.time, result.strain);
@@ -112,6 +133,7 @@ std::string summary(const RunResult& result) {
     }
     text += table.text("  ");
   }
+  if (result.series.budget) text += budget_text(result.last);
   const double steps_per_second = result.wall_seconds > 0 ? static_cast<double>(result.steps) / result.wall_seconds : 0;
   text += fmt::format("cost: {} of steps ({:.0f} steps/s)\n", duration_text(result.wall_seconds), steps_per_second);
   if (result.ending != Ending::failed) text += fmt::format("state hash: {:016x}\n", result.state_hash);

@@ -84,9 +84,11 @@ void Simulation<D>::start_run(const Sample<D>& start) {
   engine_ = make_engine<D>(kind_, scene_, derived_, start_);
   if (scene_.run.equilibrium) equilibrium_.emplace(scene_, derived_, start_, *scene_.run.equilibrium);
   scale_ = measure_scale(derived_, kind_ == EngineKind::cd);
+  scale_.energy_at_start = engine_->energy().total();
   total_steps_ = steps_for(derived_.duration, engine_->dt());
   schedule_ = make_schedule(total_steps_, scene_.run.samples, sample_interval(kind_, derived_, engine_->dt()));
   series_.dimension = D;
+  series_.budget = kind_ == EngineKind::md && scene_.md.energy_budget;
 }
 
 // ---- Checkpoints ----

@@ -132,14 +132,14 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
 CsvTable to_table(const TimeSeries& series) {
   CsvTable table;
   for (int k = 0; k < observable_count; ++k) {
-    if (!shown(static_cast<Observable>(k), series.dimension)) continue;
+    if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
     table.comments.push_back(fmt::format("{}: {}", observable_table[k].name, observable_table[k].meaning));
     table.columns.push_back({std::string(observable_table[k].name), ""});
   }
   for (const Measurement& row : series.rows) {
     std::vector<CsvCell>& cells = table.rows.emplace_back();
     for (int k = 0; k < observable_count; ++k) {
-      if (!shown(static_cast<Observable>(k), series.dimension)) continue;
+      if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
       cells.emplace_back();
       if (!std::isnan(row.values[k])) cells.back() = row.values[k];
     }

@@ -32,6 +32,7 @@ class RowAverager {
 
 struct TimeSeries {
   int dimension = 2;
+  bool budget = false;  ///< whether energy was accounted for
   std::vector<Measurement> rows;
 
   /// Values of one observable in the rows whose time is above `from`.
@@ -58,8 +59,11 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
 /// (n - R d) / <d>. Assumes one sign of the numerator's mean; NaN when <d> is not positive.
 Estimate ratio_of_means(const std::vector<double>& numerator, const std::vector<double>& denominator);
 
-/// Is the observable a column of tables in this dimension?
-inline bool shown(Observable observable, int dimension) { return dimension == 3 || !info(observable).only_3d; }
+/// Is the observable a column of tables of such a run?
+inline bool shown(Observable observable, int dimension, bool budget) {
+  const Shown where = info(observable).shown;
+  return where == Shown::always || (where == Shown::in_3d && dimension == 3) || (where == Shown::with_budget && budget);
+}
 
 /// The series as a table: one column per observable, an empty cell where one has no meaning.
 CsvTable to_table(const TimeSeries& series);
