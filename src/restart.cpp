@@ -85,6 +85,8 @@ void save_sample(Archive& archive, const Sample<D>& sample) {
   put_column(archive, "sample.spin", sample.spin);
   put_column(archive, "sample.radius", sample.radius);
   put_column(archive, "sample.mass", sample.mass);
+  archive.integers["sample.material"].assign(sample.material.begin(), sample.material.end());
+  archive.integers["sample.plane_material"].assign(sample.plane_material.begin(), sample.plane_material.end());
 }
 
 template <int D>
@@ -106,6 +108,11 @@ Sample<D> stored_sample(const Archive& archive) {
   take_column(archive, "sample.spin", sample.spin);
   take_column(archive, "sample.radius", sample.radius);
   take_column(archive, "sample.mass", sample.mass);
+  const auto& material = integer_column(archive, "sample.material");
+  sample.material.assign(material.begin(), material.end());
+  sample.material.resize(sample.count(), 0);
+  const auto& plane_material = integer_column(archive, "sample.plane_material");
+  sample.plane_material.assign(plane_material.begin(), plane_material.end());
   return sample;
 }
 

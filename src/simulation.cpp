@@ -147,6 +147,9 @@ Sample<D> Simulation<D>::present_sample() {
   if (!snapshot.spin.empty()) sample.spin.assign(snapshot.spin.begin(), snapshot.spin.end());
   sample.radius.assign(snapshot.radius.begin(), snapshot.radius.end());
   sample.mass.assign(snapshot.mass.begin(), snapshot.mass.end());
+  const Sample<D>& start = compression_ ? compression_->start_ : start_;
+  sample.material = start.material;
+  sample.plane_material = start.plane_material;
   return sample;
 }
 

@@ -48,6 +48,7 @@ class FieldReader {
   }
   void operator()(std::vector<double>* target);
   void operator()(std::vector<bool>* target);
+  void operator()(std::vector<std::string>* target);
   template <class Enum>
   void operator()(Enum* target) {
     if (const std::optional<std::size_t> index = choice()) *target = static_cast<Enum>(*index);
@@ -98,6 +99,19 @@ void FieldReader::operator()(std::vector<bool>* target) {
   for (const TreeNode& item : *items) {
     if (const bool* truth = std::get_if<bool>(&item.value))
       values.push_back(*truth);
+    else
+      refuse(item);
+  }
+  if (mistakes_.empty()) *target = std::move(values);
+}
+
+void FieldReader::operator()(std::vector<std::string>* target) {
+  const auto* items = node_.list();
+  if (items == nullptr) return refuse(node_);
+  std::vector<std::string> values;
+  for (const TreeNode& item : *items) {
+    if (const std::string* text = item.text())
+      values.push_back(*text);
     else
       refuse(item);
   }

@@ -18,6 +18,7 @@ namespace {
 
 /// One grain as the file gives it.
 struct Atom {
+  long type = 1;
   double diameter = 0, density = 0;
   Vec<3> position = Vec<3>::Zero(), velocity = Vec<3>::Zero(), spin = Vec<3>::Zero();
 };
@@ -128,6 +129,8 @@ class DataFile {
       fail_at(words[0],
               fmt::format("expected 'id type diameter density x y z [ix iy iz]', found {} values", words.size()));
     Atom atom;
+    atom.type = integer(words[1]);
+    if (atom.type < 1) fail_at(words[1], "an atom type must be at least 1");
     atom.diameter = real(words[2]);
     atom.density = real(words[3]);
     if (!(atom.diameter > 0)) fail_at(words[2], "a diameter must be above 0");
@@ -196,6 +199,7 @@ Sample<D> make_sample(const DataFile& file, const std::array<bool, D>& periodic)
     else
       sample.spin[i] = atom.spin;
     sample.radius[i] = atom.diameter / 2;
+    sample.material[i] = static_cast<int>(atom.type) - 1;
     sample.mass[i] = atom.density * grain_volume<D>(atom.diameter);
     ++i;
   }
@@ -233,7 +237,8 @@ void write_lammps_data(const std::string& path, const Sample<D>& sample) {
       require(box(a, b) == 0, "a LAMMPS data file needs an upper triangular cell: rotate the sample first");
   const double low_z = D == 2 ? -thickness / 2 : 0;
 
-  std::string text = fmt::format("LAMMPS data file written by galet\n\n{} atoms\n1 atom types\n\n", sample.count());
+  const int types = sample.count() == 0 ? 1 : 1 + *std::max_element(sample.material.begin(), sample.material.end());
+  std::string text = fmt::format("LAMMPS data file written by galet\n\n{} atoms\n{} atom types\n\n", sample.count(), types);
   text += fmt::format("0 {} xlo xhi\n0 {} ylo yhi\n{} {} zlo zhi\n", box(0, 0), box(1, 1), low_z, low_z + box(2, 2));
   if (box(0, 1) != 0 || box(0, 2) != 0 || box(1, 2) != 0)
     text += fmt::format("{} {} {} xy xz yz\n", box(0, 1), box(0, 2), box(1, 2));
@@ -241,7 +246,7 @@ void write_lammps_data(const std::string& path, const Sample<D>& sample) {
   for (int i = 0; i < sample.count(); ++i) {
     const double diameter = 2 * sample.radius[i];
     const Vec<3> x = in_space<D>(sample.position[i]);
-    text += fmt::format("{} 1 {} {} {} {} {}\n", i + 1, diameter, sample.mass[i] / grain_volume<D>(diameter), x.x(),
+    text += fmt::format("{} {} {} {} {} {} {}\n", i + 1, sample.material[i] + 1, diameter, sample.mass[i] / grain_volume<D>(diameter), x.x(),
                         x.y(), x.z());
   }
   text += "\nVelocities\n\n";

@@ -4,6 +4,8 @@
 // Sections of force field coefficients and masses per type say nothing about a sample and are skipped; any other
 // section is an error. Grains come in the order of their ids. The cell's origin moves to 0.
 //
+// Atom type t is material t - 1 of the sample (0: the scene's [material]).
+//
 // Mass: density times the volume of the grain in D dimensions. LAMMPS itself gives a sphere's mass, density pi d^3/6,
 // to the grains of a 2D run unless they are set to discs: the 2D masses of such a file differ from LAMMPS's.
 // In 2D, z, vz, wx, wy and the box along z are ignored.

@@ -76,6 +76,7 @@ class Header {
     spin = indices(spin_names<D>());
     diameter = indices({"diameter"})[0];
     mass = indices({"mass"})[0];
+    material = indices({"material"})[0];
     for (int needed : {position[0], position[1], position[D - 1], diameter}) {
       if (needed >= 0) continue;
       mistakes.push_back(
@@ -93,7 +94,7 @@ class Header {
   }
 
   std::vector<int> position, velocity, spin;
-  int diameter = -1, mass = -1;
+  int diameter = -1, mass = -1, material = -1;
 
  private:
   /// The components of a vector are all there or none is.
@@ -122,6 +123,7 @@ void read_grain(const NumberTable& table, const Header<D>& header, int row, Samp
   }
   sample.radius[row] = table.at(row, header.diameter) / 2;
   if (header.mass >= 0) sample.mass[row] = table.at(row, header.mass);
+  if (header.material >= 0) sample.material[row] = static_cast<int>(table.at(row, header.material));
 }
 
 /// Every value is finite; diameters and masses are above 0.
@@ -138,6 +140,8 @@ void check_values(const NumberTable& table, const Header<D>& header, std::vector
       else if (positive && value <= 0)
         mistakes.push_back(
             table.mistake(row, column, fmt::format("the {} must be above 0", table.columns[column].name)));
+      else if (column == header.material && !(value >= 0 && value == std::floor(value) && value < 1000))
+        mistakes.push_back(table.mistake(row, column, "expected the number of a material: 0, 1, ..."));
     }
   }
 }
@@ -177,6 +181,9 @@ void write_packing_csv(const std::string& path, const Sample<D>& sample) {
   table.comments = {"packing written by galet; box matrix row by row, cell vectors are its columns", cell, periodic};
   for (const Names& names : {position_names<D>(), Names{"diameter", "mass"}, velocity_names<D>(), spin_names<D>()})
     for (const std::string& name : names) table.columns.push_back({name, ""});
+  // Most packings are of one material: they do without the column.
+  const bool mixed = std::any_of(sample.material.begin(), sample.material.end(), [](int k) { return k != 0; });
+  if (mixed) table.columns.push_back({"material", ""});
   for (int i = 0; i < sample.count(); ++i) {
     std::vector<CsvCell> row(sample.position[i].begin(), sample.position[i].end());
     row.insert(row.end(), {CsvCell(2 * sample.radius[i]), CsvCell(sample.mass[i])});
@@ -185,6 +192,7 @@ void write_packing_csv(const std::string& path, const Sample<D>& sample) {
       row.emplace_back(sample.spin[i]);
     else
       row.insert(row.end(), sample.spin[i].begin(), sample.spin[i].end());
+    if (mixed) row.emplace_back(static_cast<double>(sample.material[i]));
     table.rows.push_back(std::move(row));
   }
   write_csv(path, table);

@@ -1,7 +1,8 @@
 // Packings as CSV tables, one grain per line:
-//   x,y[,z],diameter[,mass][,vx,vy[,vz]][,wz | wx,wy,wz]
+//   x,y[,z],diameter[,mass][,vx,vy[,vz]][,wz | wx,wy,wz][,material]
 // in any order of columns, with optional comment lines "# cell: ..." (the box matrix row by row: D x D numbers, the
 // cell vectors are its columns) and "# periodic: 1 0 1" (1: periodic along that cell vector; default all).
+// material: 0 for the scene's [material], k for its k-th [[other_material]].
 #pragma once
 
 #include <string>

@@ -76,6 +76,7 @@ struct ExpectedOf {
   std::string operator()(std::optional<double>*) const { return (*this)(static_cast<double*>(nullptr)); }
   std::string operator()(std::string*) const { return "a string"; }
   std::string operator()(std::vector<bool>*) const { return "an array of true or false"; }
+  std::string operator()(std::vector<std::string>*) const { return "an array of strings"; }
   std::string operator()(std::vector<double>*) const {
     const std::string array = "an array of " + with_range(plural(field.quantity), field.range);
     return field.number_too ? with_article(field.quantity) + " or " + array : array;
@@ -111,6 +112,9 @@ struct DefaultOf {
   std::string operator()(const std::vector<bool>* values) const {
     return values->empty() ? "none" : fmt::format("{}", *values);
   }
+  std::string operator()(const std::vector<std::string>* values) const {
+    return values->empty() ? "none" : fmt::format("{}", *values);
+  }
   template <class Enum>
   std::string operator()(const Enum* value) const {
     return chosen(static_cast<std::size_t>(*value));
@@ -138,8 +142,10 @@ std::string expected(const SceneField& field) {
 
 std::string expected_item(const SceneField& field) {
   Scene scene = scene_with_entries();
-  const bool truths = std::holds_alternative<std::vector<bool>*>(field.target(scene));
-  return truths ? "true or false" : with_range(with_article(field.quantity), field.range);
+  const FieldTarget target = field.target(scene);
+  if (std::holds_alternative<std::vector<bool>*>(target)) return "true or false";
+  if (std::holds_alternative<std::vector<std::string>*>(target)) return "a string";
+  return with_range(with_article(field.quantity), field.range);
 }
 
 std::string default_text(const SceneField& field) {

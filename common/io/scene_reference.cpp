@@ -50,7 +50,7 @@ std::string units_text() {
       "Powers may be written `m/s2`, `m/s^2` or `m/s²`, and micro `u` or `µ`. In 2D a pressure is a force per length "
       "and a density a mass per area. With `units = \"reduced\"` such a string is a mistake.\n\n"
       "| quantity | 3D | 2D |\n|---|---|---|\n";
-  for (int k = static_cast<int>(Quantity::length); k <= static_cast<int>(Quantity::stiffness); ++k) {
+  for (int k = static_cast<int>(Quantity::length); k <= static_cast<int>(Quantity::modulus); ++k) {
     const auto quantity = static_cast<Quantity>(k);
     const std::string noun = with_article(quantity);
     text += fmt::format("| {} | {} | {} |\n", noun.substr(noun.find(' ') + 1), fmt::join(unit_names(quantity, 3), ", "),

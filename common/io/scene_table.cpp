@@ -1,15 +1,13 @@
 // The rows of the table. A default is not repeated here: it is read from a default Scene.
+#include "common/io/scene_table.hpp"
+
 #include "common/io/scene_fields.hpp"
 
 namespace galet {
 
+using namespace scene_table;
+
 namespace {
-
-using Rows = std::vector<SceneField>;
-
-Interval above(double low) { return {.low = low, .low_open = true}; }
-Interval at_least(double low) { return {.low = low}; }
-Interval between(double low, double high) { return {.low = low, .high = high}; }
 
 void add_top(Rows& rows) {
   rows.push_back({.path = "title",
@@ -109,56 +107,18 @@ void add_listed_grains(Rows& rows) {
                   .quantity = Quantity::angular_velocity,
                   .number_too = true,
                   .fallback = "none",
-                  .doc = "angular velocity: a number in 2D, three components in 3D; needs friction"});
+                  .doc = "angular velocity: a number in 2D, three components in 3D; needs friction or rolling "
+                         "resistance"});
   rows.push_back({.path = "grain.diameter",
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().diameter; },
                   .symbol = "d",
                   .quantity = Quantity::length,
                   .range = above(0),
                   .doc = "of this grain"});
-}
-
-void add_material(Rows& rows) {
-  rows.push_back({.path = "material.friction",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.friction; },
-                  .symbol = "mu",
-                  .range = at_least(0),
-                  .doc = "Coulomb coefficient; 0: frictionless grains, whose rotations are not computed"});
-  rows.push_back({.path = "material.restitution",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.restitution; },
-                  .symbol = "e",
-                  .range = between(0, 1),
-                  .fallback = "needed, or `damping_ratio`",
-                  .doc = "normal restitution of a head-on collision of two grains; above 0 for md"});
-  rows.push_back({.path = "material.damping_ratio",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.damping_ratio; },
-                  .symbol = "zeta",
-                  .range = at_least(0),
-                  .fallback = "needed, or `restitution`",
-                  .doc = "damping constant of a contact / its critical value 2 sqrt(m* K_N); cd uses the restitution "
-                         "that follows from it"});
-  rows.push_back({.path = "material.stiffness_level",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.stiffness_level; },
-                  .symbol = "kappa",
-                  .range = above(0),
-                  .fallback = "md: needed, or `normal_stiffness`",
-                  .doc = "K_N / (P d^(D-2)): deflections are about d / kappa; needs `loading.pressure`"});
-  rows.push_back({.path = "material.normal_stiffness",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.normal_stiffness; },
-                  .symbol = "K_N",
-                  .quantity = Quantity::stiffness,
-                  .range = above(0),
-                  .fallback = "md: needed, or `stiffness_level`",
-                  .doc = "normal force per deflection"});
-  rows.push_back({.path = "material.tangential_stiffness_ratio",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.tangential_stiffness_ratio; },
-                  .range = above(0),
-                  .doc = "K_T / K_N"});
-  rows.push_back({.path = "material.viscous_convention",
-                  .target = [](Scene& s) -> FieldTarget { return &s.material.convention; },
-                  .choices = {"elastic", "total"},
-                  .doc = "`elastic`: only the elastic parts enter Coulomb's inequality, the total normal force may "
-                         "attract; `total`: viscous parts are added before, the normal force is clipped at 0"});
+  rows.push_back({.path = "grain.material",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().material; },
+                  .fallback = "[material]",
+                  .doc = "name of its material"});
 }
 
 void add_initial(Rows& rows) {
@@ -231,6 +191,10 @@ void add_planes(Rows& rows) {
                   .quantity = Quantity::velocity,
                   .fallback = "at rest",
                   .doc = "imposed velocity"});
+  rows.push_back({.path = "plane.material",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
+                  .fallback = "[material]",
+                  .doc = "name of its material"});
 }
 
 void add_loading(Rows& rows) {
@@ -298,6 +262,22 @@ void add_engines(Rows& rows) {
   rows.push_back({.path = "md.allow_unsafe_dt",
                   .target = [](Scene& s) -> FieldTarget { return &s.md.allow_unsafe_dt; },
                   .doc = "run although the time step is above its stability bound"});
+  rows.push_back({.path = "md.energy_budget",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.energy_budget; },
+                  .doc = "account for the work of drives and planes and for dissipation by channel; costs about a "
+                         "fifth of the speed"});
+  rows.push_back({.path = "md.drag",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.drag; },
+                  .quantity = Quantity::rate,
+                  .range = at_least(0),
+                  .doc =
+                      "relaxer: a force -drag m v on each grain, and likewise on its rotation. Breaks the balance of "
+                      "momentum: only to reach an equilibrium, refused under gravity and imposed motion"});
+  rows.push_back({.path = "md.acceleration_damping",
+                  .target = [](Scene& s) -> FieldTarget { return &s.md.acceleration_damping; },
+                  .range = {.low = 0, .high = 1, .high_open = true},
+                  .doc = "relaxer: forces count 1 - this where they speed a grain up, 1 + this where they slow it "
+                         "down; refused like `drag`"});
   rows.push_back({.path = "cd.dt",
                   .target = [](Scene& s) -> FieldTarget { return &s.cd.dt; },
                   .quantity = Quantity::time,
@@ -379,8 +359,9 @@ void add_compare(Rows& rows) {
 const std::vector<SceneField>& scene_fields() {
   static const Rows table = [] {
     Rows rows;
-    for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_material, add_initial, add_cell,
-                           add_planes, add_loading, add_drives, add_engines, add_run, add_compare})
+    for (const auto add :
+         {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material, add_other_materials,
+          add_pairs, add_initial, add_cell, add_planes, add_loading, add_drives, add_engines, add_run, add_compare})
       add(rows);
     return rows;
   }();
@@ -399,7 +380,22 @@ const std::vector<SceneSection>& scene_sections() {
        .list = true,
        .doc = "A grain placed by hand, one table per grain.",
        .append = [](Scene& s) { s.grains.listed.emplace_back(); }},
-      {.name = "material", .doc = "Contacts of grains with each other and with planes."},
+      {.name = "group",
+       .list = true,
+       .doc = "A share of the grains that is of a further material; who belongs to it is drawn from the seed.",
+       .append = [](Scene& s) { s.grains.groups.emplace_back(); }},
+      {.name = "material",
+       .doc = "Contacts of grains with each other and with planes: the material of all that name no other one."},
+      {.name = "other_material",
+       .list = true,
+       .doc = "A further material, one table per material; what it leaves out is as in [material]. Between two "
+              "materials: E* and G* from both sides (hertz) or half springs in series (linear), the smaller friction, "
+              "rolling and pivoting coefficient, the mean damping ratio, the geometric mean of the cohesion forces.",
+       .append = [](Scene& s) { s.other_materials.emplace_back(); }},
+      {.name = "material_pair",
+       .list = true,
+       .doc = "What holds between two materials in place of these rules.",
+       .append = [](Scene& s) { s.pairs.emplace_back(); }},
       {.name = "initial", .doc = "The state in which the run starts."},
       {.name = "cell", .doc = "The cell that holds the grains."},
       {.name = "plane",

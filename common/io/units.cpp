@@ -50,6 +50,10 @@ std::vector<Unit> units(Quantity quantity, int dimension) {
       return pressure_units(dimension);
     case Quantity::stiffness:
       return {{"N/m"}, {"kN/m", 1e3}, {"MN/m", 1e6}, {"GN/m", 1e9}};
+    case Quantity::force:
+      return {{"nN", 1, 1e9}, {"uN", 1, 1e6}, {"mN", 1, 1e3}, {"N"}, {"kN", 1e3}};
+    case Quantity::modulus:
+      return pressure_units(3);
   }
   return {};
 }
@@ -114,6 +118,10 @@ std::string with_article(Quantity quantity) {
       return "a pressure";
     case Quantity::stiffness:
       return "a stiffness";
+    case Quantity::force:
+      return "a force";
+    case Quantity::modulus:
+      return "a modulus";
   }
   return "";
 }

@@ -21,7 +21,9 @@ enum class Quantity {
   angular_velocity,
   density,
   pressure,
-  stiffness
+  stiffness,
+  force,
+  modulus  ///< of elasticity: a force per area in 2D too
 };
 
 /// "a pressure".

@@ -9,46 +9,19 @@
 
 #include "common/core/near_match.hpp"
 #include "common/core/types.hpp"
+#include "common/scene/check_report.hpp"
 
 namespace galet {
 
+using namespace scene_check;
+
 namespace {
 
-using Paths = std::vector<std::string>;
-
-/// The scene under examination and what was found in it.
-struct Report {
-  const Scene& scene;
-  std::vector<Finding> findings = {};
-
-  void add(std::string path, std::string message, Paths reads = {}) {
-    findings.push_back({std::move(path), std::move(message), std::move(reads)});
-  }
-  /// Adds the finding when the rule is broken.
-  void rule(bool holds, std::string path, std::string message, Paths reads = {}) {
-    if (!holds) add(std::move(path), std::move(message), std::move(reads));
-  }
-  /// A vector of the scene has one component per direction, or is absent.
-  void components(const std::string& path, std::size_t size, bool may_be_absent = true) {
-    const auto wanted = static_cast<std::size_t>(scene.dimension);
-    if (size == wanted || (size == 0 && may_be_absent)) return;
-    add(path, fmt::format("{}: {}D needs {} components, got {}", path, wanted, wanted, size), {"dimension"});
-  }
-};
-
-bool drawn(InitialKind kind) { return kind != InitialKind::listed && kind != InitialKind::packing; }
-
 bool gaseous(InitialKind kind) { return kind == InitialKind::gas || kind == InitialKind::compressed_gas; }
-
-bool is_periodic(const Scene& scene, std::size_t direction) {
-  return direction >= scene.cell.periodic.size() || scene.cell.periodic[direction];
-}
 
 bool all_periodic(const Scene& scene) {
   return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
 }
-
-char axis(std::size_t direction) { return "xyz"[direction]; }
 
 /// Mean of diameter^power over the distribution, power = 2 or 3.
 double mean_power(const SizeDistribution& sizes, int power) {
@@ -148,9 +121,9 @@ void check_listed(Report& report) {
                             grain.spin.size() == 1 ? "" : "s"),
                 {"dimension"});
     const bool turning = std::any_of(grain.spin.begin(), grain.spin.end(), [](double w) { return w != 0; });
-    report.rule(!turning || scene.material.friction > 0, path + "spin",
+    report.rule(!turning || rotates(scene), path + "spin",
                 path + "spin needs material.friction > 0: rotations of frictionless grains are not computed",
-                {"material.friction"});
+                {"material", "other_material", "material_pair"});
   }
 }
 
@@ -165,30 +138,6 @@ void check_grains(Report& report) {
   report.rule(report.scene.reduced_units || massive, "grains",
               "grains.density or grains.mass is needed with units = \"SI\"",
               {"units", "initial.kind", "grains.density", "grains.mass"});
-}
-
-// ---- material ----------------------------------------------------------------------------------------------
-
-void check_material(Report& report) {
-  const Scene& scene = report.scene;
-  const MaterialSpec& material = scene.material;
-  const bool md = scene.engine == EngineKind::md;
-  report.rule(!material.restitution || !material.damping_ratio, "material.damping_ratio",
-              "material.restitution and material.damping_ratio exclude each other", {"material.restitution"});
-  report.rule(material.restitution || material.damping_ratio, "material",
-              "material.restitution or material.damping_ratio is needed",
-              {"material.restitution", "material.damping_ratio"});
-  report.rule(!md || material.restitution != 0.0, "material.restitution",
-              "material.restitution: md needs a restitution > 0 (give a damping_ratio for stronger damping)",
-              {"engine"});
-  report.rule(!material.stiffness_level || !material.normal_stiffness, "material.normal_stiffness",
-              "material.stiffness_level and material.normal_stiffness exclude each other",
-              {"material.stiffness_level"});
-  report.rule(!md || material.stiffness_level || material.normal_stiffness, "material",
-              "material.stiffness_level or material.normal_stiffness is needed by engine md",
-              {"engine", "material.stiffness_level", "material.normal_stiffness"});
-  report.rule(!material.stiffness_level || scene.loading.pressure, "material.stiffness_level",
-              "material.stiffness_level needs loading.pressure: it is K_N / (P d^(D-2))", {"loading.pressure"});
 }
 
 // ---- initial state and cell --------------------------------------------------------------------------------
@@ -432,6 +381,8 @@ std::vector<Finding> check(const Scene& scene) {
     return {{"dimension", fmt::format("dimension: expected 2 or 3, got {}", scene.dimension), {}}};
   check_grains(report);
   check_material(report);
+  check_material_names(report);
+  check_relaxers(report);
   check_initial(report);
   check_cell(report);
   check_planes(report);

@@ -11,6 +11,7 @@
 #include "common/core/random.hpp"
 #include "common/io/lammps.hpp"
 #include "common/io/packing_csv.hpp"
+#include "common/scene/materials.hpp"
 #include "common/scene/placement.hpp"
 #include "common/scene/random_insertion.hpp"
 
@@ -84,7 +85,11 @@ template <int D>
 void set_masses(const Scene& scene, Sample<D>& sample) {
   const double mean_volume = grain_volume<D>(mean_diameter(scene, sample.radius));
   const double density = scene.grains.density.value_or(scene.grains.mass.value_or(1) / mean_volume);
-  for (int i = 0; i < sample.count(); ++i) sample.mass[i] = density * grain_volume<D>(2 * sample.radius[i]);
+  for (int i = 0; i < sample.count(); ++i) {
+    const int k = sample.material[i];
+    const double own = k > 0 ? scene.other_materials[k - 1].density.value_or(density) : density;
+    sample.mass[i] = own * grain_volume<D>(2 * sample.radius[i]);
+  }
 }
 
 template <int D>
@@ -211,6 +216,7 @@ Sample<D> drawn_sample(const Scene& scene) {
     place_on_lattice<D>(scene, sample);
   else
     sample.position = random_insertion<D>(sample.cell, sample.planes, sample.radius, scene.seed);
+  assign_materials<D>(scene, sample);
   set_masses<D>(scene, sample);
   return sample;
 }
@@ -260,6 +266,7 @@ Sample<D> listed_sample(const Scene& scene) {
   sample.planes = scene_planes<D>(scene);
   wrap_positions<D>(sample);
   refuse_overlaps<D>(sample, listed_overlap);
+  assign_materials<D>(scene, sample);
   set_masses<D>(scene, sample);
   return sample;
 }
@@ -285,6 +292,7 @@ Sample<D> packing_sample(const Scene& scene) {
   sample.planes = scene_planes<D>(scene);
   wrap_positions<D>(sample);
   refuse_overlaps<D>(sample, packing_overlap);
+  assign_materials<D>(scene, sample);
   if (!file.has_mass || scene.grains.density || scene.grains.mass) set_masses<D>(scene, sample);
   return sample;
 }

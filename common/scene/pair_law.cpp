@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/error.hpp"
+#include "common/scene/materials.hpp"
 #include "common/scene/restitution.hpp"
 
 namespace galet {
@@ -12,7 +13,6 @@ namespace {
 
 /// One material with everything that [material] lends it.
 struct Material {
-  std::string name;
   double friction, rolling_friction, pivoting_friction, cohesion;
   double zeta;
   std::optional<double> restitution;  ///< as written
@@ -33,7 +33,7 @@ double damping_ratio(const MaterialSpec& laws, std::optional<double> restitution
 
 Material base_material(const Scene& scene, std::optional<double> pressure, double d) {
   const MaterialSpec& spec = scene.material;
-  Material material{spec.name, spec.friction, spec.rolling_friction, spec.pivoting_friction, 0, 0, spec.restitution};
+  Material material{spec.friction, spec.rolling_friction, spec.pivoting_friction, 0, 0, spec.restitution};
   material.zeta = damping_ratio(spec, spec.restitution, spec.damping_ratio);
   if (spec.cohesion_force) material.cohesion = *spec.cohesion_force;
   if (spec.cohesion_number && pressure)
@@ -67,7 +67,6 @@ std::vector<Material> materials_of(const Scene& scene, std::optional<double> pre
   std::vector<Material> materials{base};
   for (const OtherMaterial& other : scene.other_materials) {
     Material material = base;
-    material.name = other.name;
     material.friction = other.friction.value_or(base.friction);
     material.rolling_friction = other.rolling_friction.value_or(base.rolling_friction);
     material.pivoting_friction = other.pivoting_friction.value_or(base.pivoting_friction);
@@ -140,15 +139,9 @@ LawTable law_table(const Scene& scene, std::optional<double> pressure, double di
   table.stiff = std::all_of(materials.begin(), materials.end(), [](const Material& m) { return m.stiff; });
   for (const Material& a : materials)
     for (const Material& b : materials) table.pairs.push_back(mix(scene.material, a, b));
-  const auto index = [&](const std::string& name) {
-    const auto found =
-        std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
-    require(found != materials.end(), "no material is called '" + name + "'");
-    return static_cast<int>(found - materials.begin());
-  };
   for (const MaterialPair& pair : scene.pairs) {
     require(pair.between.size() == 2, "a material pair has two names");
-    const int a = index(pair.between[0]), b = index(pair.between[1]);
+    const int a = material_index(scene, pair.between[0]), b = material_index(scene, pair.between[1]);
     apply(scene.material, pair, table.pairs[a * table.materials + b]);
     table.pairs[b * table.materials + a] = table.at(a, b);
   }

@@ -30,7 +30,7 @@ int crossed_plane(const std::vector<Plane<D>>& planes, const Vec<D>& x, double r
 }
 
 /// Number of the random stream that serves one purpose for one grain: no two purposes share numbers.
-enum class StreamPurpose : std::uint64_t { diameter, shake, insertion, velocity };
+enum class StreamPurpose : std::uint64_t { diameter, shake, insertion, velocity, material };
 inline std::uint64_t stream_number(StreamPurpose purpose, int grain) {
   return (static_cast<std::uint64_t>(purpose) << 32) | static_cast<std::uint32_t>(grain);
 }

@@ -23,9 +23,9 @@ struct SizeDistribution {
 
 /// One grain placed by hand ([[grain]] entries).
 struct ListedGrain {
-  std::vector<double> position;  ///< D components
-  std::vector<double> velocity;  ///< D components, or empty for rest
-  std::vector<double> spin;      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
+  std::vector<double> position;       ///< D components
+  std::vector<double> velocity = {};  ///< D components, or empty for rest
+  std::vector<double> spin = {};      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
   std::string material = {};  ///< name; empty: [material]
 };
@@ -85,16 +85,21 @@ struct MaterialSpec {
 
 /// A further material; what it leaves out is as in [material].
 struct OtherMaterial {
-  std::string name;
-  std::optional<double> density;  ///< of its grains (default: as the other grains)
-  std::optional<double> friction, restitution, damping_ratio, normal_stiffness, stiffness_level, young_modulus,
-      poisson_ratio, tangential_stiffness_ratio, rolling_friction, pivoting_friction, cohesion_force;
+  std::string name = {};
+  std::optional<double> density = {};  ///< of its grains (default: as the other grains)
+  std::optional<double> friction = {};
+  std::optional<double> restitution = {}, damping_ratio = {};
+  std::optional<double> stiffness_level = {}, normal_stiffness = {}, young_modulus = {}, poisson_ratio = {};
+  std::optional<double> tangential_stiffness_ratio = {};
+  std::optional<double> rolling_friction = {}, pivoting_friction = {};
+  std::optional<double> cohesion_force = {};
 };
 
-/// What holds between two materials in place of the mixing rules (see derive.hpp).
+/// What holds between two materials in place of the mixing rules (pair_law.hpp).
 struct MaterialPair {
-  std::vector<std::string> between;  ///< two names; may be the same
-  std::optional<double> friction, restitution, normal_stiffness, rolling_friction, pivoting_friction, cohesion_force;
+  std::vector<std::string> between = {};  ///< two names; may be the same
+  std::optional<double> friction = {}, restitution = {}, normal_stiffness = {};
+  std::optional<double> rolling_friction = {}, pivoting_friction = {}, cohesion_force = {};
 };
 
 enum class InitialKind {
@@ -124,8 +129,8 @@ struct CellSpec {
 struct PlaneSpec {
   std::vector<double> point;
   std::vector<double> normal;
-  std::vector<double> velocity;  ///< imposed; empty: at rest
-  std::string material = {};     ///< name; empty: [material]
+  std::vector<double> velocity = {};  ///< imposed; empty: at rest
+  std::string material = {};          ///< name; empty: [material]
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or

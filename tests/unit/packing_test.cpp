@@ -333,7 +333,7 @@ TEST(Packing, MistakesInPackingFiles) {
   EXPECT_EQ(refusal_of(head + "x,y\n1,1\n"), "a.csv: error: a packing in 2D needs the columns x,y,diameter");
   EXPECT_EQ(refusal_of(head + "x,y,diameter,vx\n1,1,1,0\n"), "a.csv: error: the columns vx, vy go together");
   EXPECT_EQ(refusal_of(head + "x,y,diameter,z\n1,1,1,0\n"),
-            "a.csv:2:14: error: unknown column 'z'; known in 2D: x, y, vx, vy, wz, diameter, mass");
+            "a.csv:2:14: error: unknown column 'z'; known in 2D: x, y, vx, vy, wz, diameter, mass, material");
   EXPECT_EQ(refusal_of(head + "x,y,diameter\n"), "a.csv: error: the packing has no grains");
   EXPECT_EQ(refusal_of("# cell: 4 0 0\nx,y,diameter\n1,1,1\n"),
             "a.csv: error: the comment 'cell: 4 0 0' must hold 4 numbers after 'cell:'");

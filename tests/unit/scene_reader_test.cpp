@@ -58,7 +58,8 @@ duration = 1
       {"unknown_field_without_near_match",
        sound + R"(md.zzzzz = 1
 )",
-       {R"(5:4: unknown name "zzzzz" in [md]; expected dt, steps_per_contact or allow_unsafe_dt)"}},
+       {R"(5:4: unknown name "zzzzz" in [md]; expected dt, steps_per_contact, allow_unsafe_dt, energy_budget, drag or )"
+        R"(acceleration_damping)"}},
       {"unknown_name_at_the_top",
        sound + R"(colour = "red"
 )",

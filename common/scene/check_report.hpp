@@ -1,0 +1,52 @@
+// What the parts of check() share: the scene under examination and what was found in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/scene/check.hpp"
+
+namespace galet::scene_check {
+
+using Paths = std::vector<std::string>;
+
+/// The scene under examination and what was found in it.
+struct Report {
+  const Scene& scene;
+  std::vector<Finding> findings = {};
+
+  void add(std::string path, std::string message, Paths reads = {}) {
+    findings.push_back({std::move(path), std::move(message), std::move(reads)});
+  }
+  /// Adds the finding when the rule is broken.
+  void rule(bool holds, std::string path, std::string message, Paths reads = {}) {
+    if (!holds) add(std::move(path), std::move(message), std::move(reads));
+  }
+  /// A vector of the scene has one component per direction, or is absent.
+  void components(const std::string& path, std::size_t size, bool may_be_absent = true) {
+    const auto wanted = static_cast<std::size_t>(scene.dimension);
+    if (size == wanted || (size == 0 && may_be_absent)) return;
+    add(path, fmt::format("{}: {}D needs {} components, got {}", path, wanted, wanted, size), {"dimension"});
+  }
+};
+
+/// Whether the grains are made by the scene itself (not listed, not read from a file).
+inline bool drawn(InitialKind kind) { return kind != InitialKind::listed && kind != InitialKind::packing; }
+
+inline bool is_periodic(const Scene& scene, std::size_t direction) {
+  return direction >= scene.cell.periodic.size() || scene.cell.periodic[direction];
+}
+
+inline char axis(std::size_t direction) { return "xyz"[direction]; }
+
+/// Whether some contact makes grains turn.
+bool rotates(const Scene& scene);
+
+// check_material.cpp
+void check_material(Report& report);
+void check_material_names(Report& report);  ///< of materials, and who refers to them
+void check_relaxers(Report& report);
+
+}  // namespace galet::scene_check
