@@ -6,6 +6,8 @@
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
 #   layouts          what each layout costs (Google Benchmark)
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
+#   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
+#   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
 set -euo pipefail
@@ -15,7 +17,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d hertz_compression lammps_peer plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
@@ -28,6 +30,9 @@ for name in "${names[@]}"; do
       done ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
+    hertz_compression)
+      for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
+    lammps_peer) benchmarks/peers/lammps.sh "$out/table.csv" ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac
   # Paths of this run say nothing to a reader.
