@@ -162,6 +162,19 @@ class ContactPass {
       sums.virial += contacts.force[row] * frame.branch.transpose();
     }
 
+    /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
+    struct Ahead {
+      double bound;
+      double softening;
+    };
+
+    Ahead look_ahead(const NormalForce& normal, double deflection, double opening) const {
+      const double moved = opening * law.half_after;
+      Ahead ahead{std::max(0.0, normal.bound - normal.stiffness * moved), 1};
+      if (varying() && opening > 0) ahead.softening = std::sqrt(std::max(0.01, 1 - moved / deflection));
+      return ahead;
+    }
+
     /// Applies the laws to a touching pair; `centres` is the relative velocity of the centres.
     GALET_INLINE void touch(const ContactFrame<D>& frame, const Vec<D>& centres, int i, int j, std::size_t row) {
       const PairTerms& terms = terms_of(row);
@@ -174,7 +187,7 @@ class ContactPass {
       }
       Vec<D> force = normal.force * frame.normal;
       if constexpr (Y.friction) {
-        const double ahead = std::max(0.0, normal.bound - normal.stiffness * opening * law.half_after);
+        const Ahead ahead = look_ahead(normal, -frame.gap, opening);
         const bool grain_j = j < bodies.grains();
         if (contacts.touches(row)) carry_springs(frame, normal.stiffness, terms, i, j, row);
         if constexpr (Y.rolling) roll(frame, normal, ahead, terms, i, j, row);
@@ -184,7 +197,8 @@ class ContactPass {
         turning *= frame.stretch;
         const SpringTerms spring{terms.tangential_ratio * normal.stiffness,
                                  terms.friction * normal.bound,
-                                 terms.friction * ahead,
+                                 terms.friction * ahead.bound,
+                                 ahead.softening,
                                  terms.tangential_viscosity * normal.critical,
                                  terms.total,
                                  law.half_before,
@@ -231,11 +245,12 @@ class ContactPass {
     }
 
     /// Rolling and pivoting torque on j, from the relative rotation w_j - w_i.
-    GALET_INLINE void roll(const ContactFrame<D>& frame, const NormalForce& normal, double ahead,
+    GALET_INLINE void roll(const ContactFrame<D>& frame, const NormalForce& normal, const Ahead& ahead,
                            const PairTerms& terms, int i, int j, std::size_t row) {
       const auto spring = [&](double factor, double reach) {
-        return SpringTerms{factor * normal.stiffness, reach * normal.bound, reach * ahead, 0, false,
-                           law.half_before,           law.half_after};
+        return SpringTerms{
+            factor * normal.stiffness, reach * normal.bound, reach * ahead.bound, ahead.softening, 0, false,
+            law.half_before,           law.half_after};
       };
       Spin<D> rate = -seen.spin[i];
       if (j < bodies.grains()) rate += seen.spin[j];

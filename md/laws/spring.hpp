@@ -16,6 +16,7 @@
 // Source: chapter, eqs. linuni, mindlin, coulomb, visco, secs. lois, visq, Resistance au roulement.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/core/inline.hpp"
@@ -28,6 +29,7 @@ struct SpringTerms {
   double stiffness;    ///< K now
   double limit;        ///< largest norm of the force now
   double limit_ahead;  ///< the same, expected half a step ahead
+  double softening;    ///< K half a step ahead over K now, where it falls; else 1
   double viscosity;    ///< alpha
   bool total;          ///< viscous convention
   double half_before;  ///< dt_before / 2 (0 at the very start)
@@ -64,9 +66,9 @@ GALET_INLINE Value spring_force(const SpringTerms& law, const Value& rate, Value
   const double inverse = 1 / k;
   force *= law.limit / norm(force);
   // Where the limit has fallen by more than a third in one step the midpoint rule resolves nothing: the spring first
-  // falls with it.
+  // falls with it. (Not one with a dashpot in series with the slider: it outlives the limit for a while.)
   const double longest = inverse * law.limit, length = norm(stored);
-  if (length > 1.5 * longest) stored *= longest / length;
+  if (length > 1.5 * longest && bounded_viscosity == 0) stored *= longest / length;
   const Value start = stored;
   const double modulus = k * law.half_before + bounded_viscosity;
   Value flow = 0 * rate;  // dq/dt
@@ -77,8 +79,12 @@ GALET_INLINE Value spring_force(const SpringTerms& law, const Value& rate, Value
     stored = inverse * force;
   }
   const Value free = stored;
+  double most = inverse * law.limit_ahead;
+  // While K falls elongations are kept: the one allowed is that of the softer spring.
+  if (K.general || K.hertz) most /= law.softening;
+  if (bounded_viscosity > 0) most = std::max(most, length);
   // Not a branch: while a contact slides steadily the two lengths are nearly equal. (0 / 0 leaves the zero spring.)
-  const double shortening = inverse * law.limit_ahead / norm(stored);
+  const double shortening = most / norm(stored);
   stored *= shortening < 1 ? shortening : 1.0;
   if (K.account) {
     losses.viscous += bounded_viscosity * squared_norm(flow);

@@ -78,7 +78,7 @@ Balance around(const Cycle& cycle, bool hertz) {
     Losses losses;
     if (before > 0 && hertz) adapt_spring<kernel>(before, stiffness, dt, spring, losses);
     const double limit = cycle.friction * normal.bound;
-    const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 0, false, dt / 2, dt / 2},
+    const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 1, 0, false, dt / 2, dt / 2},
                                               Vec<3>(shear / dt), spring, losses);
     EXPECT_LE(force.norm(), limit * (1 + 1e-12));
     balance.work += force.dot(shear);
@@ -147,7 +147,7 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
       double work = 0, lost = 0;
       walk(cycle, [&](double, const Vec<3>& shear) {
         Losses losses;
-        const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 30, total, dt / 2, dt / 2},
+        const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 1, 30, total, dt / 2, dt / 2},
                                                   Vec<3>(shear / dt), spring, losses);
         if (total) {
           EXPECT_LE(force.norm(), limit * (1 + 1e-12));
