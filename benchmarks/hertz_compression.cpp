@@ -50,12 +50,12 @@ Scene glass(int count, std::uint64_t seed, double pressure) {
   return scene;
 }
 
-/// The same until it is at rest, with a drag of one inertial time.
+/// The same until it is at rest. The drag is of the order of the slowest modes: a stronger one would make them creep.
 Scene relaxing(Scene scene) {
   const double time = inertial_time(*scene.loading.pressure);
-  scene.md.drag = 1 / time;
+  scene.md.drag = 0.3 / time;
   scene.run.duration = 400 * time;
-  scene.run.equilibrium = 1e-10;
+  scene.run.equilibrium = 3e-9;
   scene.run.samples = 4000;
   return scene;
 }
@@ -71,6 +71,7 @@ void print_row(const RunResult& result, double kappa, double pressure) {
 }
 
 int compress(int count, std::uint64_t seed) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   fmt::print("kappa,P_kPa,Phi,z,z_star,rattlers,largest_overlap,kinetic,relaxation_steps,relaxation_seconds,ending\n");
   std::optional<Sample<3>> packing;
   bool settled = true;

@@ -42,8 +42,35 @@ for name in isotropic_3d frictionless_2d; do
   for engine in md cd; do block "$results/$name/$engine.txt"; done
   measured_on "$name"
 done
-echo "## Layouts"
-printf '\nThe same sample and the same motion (mu = 0) in the frictionless layout and in the frictional one, and with friction.\n'
+echo "## Isotropic compression of frictionless Hertz spheres"
+cat <<'END'
+
+Glass beads (E = 70 GPa, ν = 0.3), N = 4000, assembled from a gas at 10 kPa, then compressed further; each row at rest. Agnolin and
+Roux (2007), state A, about: Φ = 0.637, z* = 6.07, 1.3 % rattlers at κ = 39000; the chapter: z* grows by about 5 % down to κ = 2000.
+`benchmarks/run.sh hertz_compression`.
+
+END
+for file in "$results"/hertz_compression/seed_*.csv; do csv_table "$file"; done
+measured_on hertz_compression
+echo "## The same packing in LAMMPS"
+cat <<'END'
+
+A packing of 1000 spheres (μ = 0.3, K_T = 2/7 K_N, `total` convention) sheared in the solid regime by both codes from the same state
+(`benchmarks/peers/lammps.sh`; what differs and why is at the head of `benchmarks/peers/lammps.cpp`). `position_*`: rms distance from md's
+run at the finest step, over the rms non-affine displacement; `stress_*`: largest difference of a component over the largest component.
+
+END
+grep -v '^#' "$results/lammps_peer/table.csv" >"${TMPDIR:-/tmp}/peer.$$"
+csv_table "${TMPDIR:-/tmp}/peer.$$"
+rm -f "${TMPDIR:-/tmp}/peer.$$"
+echo '```'
+grep '^#' "$results/lammps_peer/table.csv"
+echo '```'
+echo
+measured_on lammps_peer
+echo "## Layouts and terms"
+printf '\nThe same sample and the same motion (mu = 0) in the frictionless layout and in the frictional one, with friction, and what\n'
+printf 'each term of the law of md adds (a term that is off has no code in the kernel that runs).\n'
 printf '`grain_steps`: grains times steps per second of processor time.\n\n'
 awk -F, '/^name,/ || /^"/ { gsub(/"/, ""); print $1 "," $4 "," $5 "," $(NF-1) "," $NF }' "$results/layouts/layouts.csv" >"${TMPDIR:-/tmp}/layouts.$$"
 csv_table "${TMPDIR:-/tmp}/layouts.$$"

@@ -264,8 +264,8 @@ void add_engines(Rows& rows) {
                   .doc = "run although the time step is above its stability bound"});
   rows.push_back({.path = "md.energy_budget",
                   .target = [](Scene& s) -> FieldTarget { return &s.md.energy_budget; },
-                  .doc = "account for the work of drives and planes and for dissipation by channel; costs about a "
-                         "fifth of the speed"});
+                  .doc = "account for the work of drives and planes and for dissipation by channel; adds a quarter "
+ "to two fifths to the cost of a step"});
   rows.push_back({.path = "md.drag",
                   .target = [](Scene& s) -> FieldTarget { return &s.md.drag; },
                   .quantity = Quantity::rate,
