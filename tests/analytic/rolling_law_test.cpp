@@ -131,9 +131,10 @@ void check_slide_to_roll(NormalLaw law) {
   const double k = inertia_over_lever<D>(), a = k / (1 + k);
   const double expected = start_speed * a / (friction * gravity);
   while (slip_of<D>(engine->snapshot()) > 0 && engine->time() < 2 * expected) engine->advance(1);
-  // The spring loads during t = mu m g / (K_T v0), which costs half of that; the crossing is seen a step late at most.
+  // The spring loads during t = mu m g / (K_T v0), which costs half of that; as the force of t = 0 it counts as
+  // unloaded for half a step at least, and the crossing is seen a step late at most.
   const double loading = friction / (tangential_ratio(law) * tangent(law) * start_speed);
-  EXPECT_NEAR(engine->time(), expected, engine->dt() + loading);
+  EXPECT_NEAR(engine->time(), expected, 1.5 * engine->dt() + loading);
   engine->advance(std::lround(expected / engine->dt()));
   // (v0^2 / mu g)(a - a^2 / 2) while sliding, then at v0 / (1 + k). The late start displaces it by less than v0 times
   // that delay, the ringing of the spring by mu g / w_T^2 < 3e-7.
@@ -282,9 +283,11 @@ void check_level(NormalLaw law) {
   // The rolling spring, let go at the bound, swings with the energy (mu_R N)^2 / (2 K_R) = 1 / (2 K_N).
   const double swing = 1 / std::sqrt(tangent(law));
   EXPECT_LT(std::abs(speed_of<D>(engine->snapshot())), swing);
-  // v0^2 / (2 a), and the angle over which the spring first loads, N / (K_N mu_R), times R; half of it is kept.
+  // With b = N / (K_N mu_R), the angle that loads the spring to its bound, the energy is used up at the angle
+  // E / (mu_R N) + b / 2; then the spring swings with amplitude b about its unloaded place, b behind that.
   const double distance = (engine->snapshot().position[0] - sample.position[0]).dot(along<D>());
-  EXPECT_NEAR(distance, speed * speed / (2 * braking), radius / (tangent(law) * rolling_friction));
+  const double loading = lever / (tangent(law) * rolling_friction);
+  EXPECT_NEAR(distance, speed * speed / (2 * braking) - loading / 2, 1.02 * loading);  // 2 %: the tangential spring
 }
 
 TEST(RollingLaw, PlasticRollingSlowsABallDown) {

@@ -10,15 +10,15 @@ namespace galet::test {
 namespace {
 
 template <int D>
-void check_threads(EngineKind kind, double pressure) {
+void check_threads(EngineKind kind, double pressure, const RichLaw* law = nullptr) {
   SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + " pressure " + std::to_string(pressure));
   const ThreadCount restore_at_end;
   set_thread_count(1);
-  const auto one = large_run<D>(kind, pressure);
+  const auto one = large_run<D>(kind, pressure, law);
   one->advance(large_steps(kind));
   set_thread_count(2);
   ASSERT_EQ(thread_count(), 2);
-  const auto two = large_run<D>(kind, pressure);
+  const auto two = large_run<D>(kind, pressure, law);
   two->advance(large_steps(kind));
   EXPECT_EQ(hash_of<D>(*two), hash_of<D>(*one));
   // A run in which nothing touched would agree whatever the threads do.
@@ -31,6 +31,13 @@ TEST(determinism, ThreadsMd2D) {
   for (double pressure : {0.0, 1.0}) check_threads<2>(EngineKind::md, pressure);
 }
 TEST(determinism, ThreadsMd3D) { check_threads<3>(EngineKind::md, 1); }
+TEST(determinism, ThreadsMdEveryLaw) {
+  for (const RichLaw& law : rich_laws()) {
+    SCOPED_TRACE(law.name);
+    check_threads<2>(EngineKind::md, 1, &law);
+    check_threads<3>(EngineKind::md, 1, &law);
+  }
+}
 TEST(determinism, ThreadsCd2D) {
   check_threads<2>(EngineKind::cd, 1);
 }  // rigid crystals can't shear at constant volume

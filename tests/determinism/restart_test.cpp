@@ -50,6 +50,43 @@ TEST(restart, Cd) {
   check_small<3>(EngineKind::cd);
 }
 
+template <int D>
+void check_law(const RichLaw& law) {
+  for (long steps : {1, 37, 201})
+    check<D>(
+        EngineKind::md, [&] { return small_run<D>(EngineKind::md, &law); }, steps);
+}
+
+TEST(restart, MdEveryLaw) {
+  for (const RichLaw& law : rich_laws()) {
+    SCOPED_TRACE(law.name);
+    check_law<2>(law);
+    check_law<3>(law);
+  }
+}
+
+/// Relaxers and the account of energy, under a pressure.
+template <int D>
+void check_relaxers() {
+  check<D>(
+      EngineKind::md,
+      [] {
+        Scene scene = periodic_scene(D, 0.4, 0.3, 1e3);
+        scene.loading.kind = LoadingKind::isotropic;
+        scene.loading.pressure = 1;
+        scene.md.drag = 0.5;
+        scene.md.acceleration_damping = 0.2;
+        scene.md.energy_budget = true;
+        return make_engine<D>(EngineKind::md, scene, sheared_sample<D>(D == 2 ? 5 : 3));
+      },
+      150);
+}
+
+TEST(restart, MdWithRelaxers) {
+  check_relaxers<2>();
+  check_relaxers<3>();
+}
+
 TEST(restart, WithTwoThreads) {
   const ThreadCount restore_at_end;
   set_thread_count(2);

@@ -3,6 +3,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/parallel.hpp"
+#include "tests/support/laws.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace galet::test {
@@ -27,9 +28,9 @@ std::uint64_t hash_of(const Engine<D>& engine) {
 }
 
 /// A crystal of grains that almost touch and move against each other: about half of the pairs collide in the first
-/// steps, and the pressure keeps the sample dense.
+/// steps, and the pressure keeps the sample dense. `law`: in place of the plain one (md).
 template <int D>
-std::unique_ptr<Engine<D>> dense_run(EngineKind kind, int cells, double pressure) {
+std::unique_ptr<Engine<D>> dense_run(EngineKind kind, int cells, double pressure, const RichLaw* law = nullptr) {
   Sample<D> sample = crystal_sample<D>(cells, 1.002);
   vary_sizes<D>(sample, 0.001, 51);
   shake<D>(sample, 0.3, 52, 0.3);
@@ -37,19 +38,23 @@ std::unique_ptr<Engine<D>> dense_run(EngineKind kind, int cells, double pressure
   scene.cd.dt = 4e-3;
   scene.cd.tolerance = 1e-3;
   scene.cd.max_sweeps = 40;  // bits must agree whether or not the tolerance is reached
+  if (law) {
+    law->change(scene);
+    mix_materials<D>(scene, sample);
+  }
   return make_engine<D>(kind, scene, sample);
 }
 
 /// More than 3000 grains: enough work for every thread to be woken.
 template <int D>
-std::unique_ptr<Engine<D>> large_run(EngineKind kind, double pressure) {
-  return dense_run<D>(kind, D == 2 ? 40 : 10, pressure);
+std::unique_ptr<Engine<D>> large_run(EngineKind kind, double pressure, const RichLaw* law = nullptr) {
+  return dense_run<D>(kind, D == 2 ? 40 : 10, pressure, law);
 }
 inline long large_steps(EngineKind kind) { return kind == EngineKind::md ? 60 : 3; }
 
 template <int D>
-std::unique_ptr<Engine<D>> small_run(EngineKind kind) {
-  return dense_run<D>(kind, D == 2 ? 6 : 3, 1);
+std::unique_ptr<Engine<D>> small_run(EngineKind kind, const RichLaw* law = nullptr) {
+  return dense_run<D>(kind, D == 2 ? 6 : 3, 1, law);
 }
 
 }  // namespace galet::test

@@ -67,6 +67,54 @@ TEST(Layout, LargerLayoutGivesTheSameResult) {
     }
 }
 
+/// The layout with rolling on a scene without: the same bits, since its springs are never asked.
+template <int D>
+void check_rolling() {
+  Scene scene = sheared_scene<D>(0.5, 1);
+  const Sample<D> sample = sheared_sample<D>(D == 2 ? 5 : 3);
+  Derived derived = derive_for<D>(scene, sample);
+  const auto small = md::make_engine<D>(scene, derived, sample);
+  derived.layout.rolling = true;
+  const auto large = md::make_engine<D>(scene, derived, sample);
+  EXPECT_EQ(large->layout(), (Layout{D, true, true}));
+  small->advance(2000);
+  large->advance(2000);
+  EXPECT_EQ(largest_difference<D>(small->snapshot().velocity, large->snapshot().velocity), 0);
+  for (int i = 0; i < sample.count(); ++i) EXPECT_EQ(small->snapshot().spin[i], large->snapshot().spin[i]);
+}
+
+TEST(Layout, RollingLayoutWithoutRollingIsTheSame) {
+  check_rolling<2>();
+  check_rolling<3>();
+}
+
+/// A general kernel on a plain scene (the energy account asks for it): the same motion as the plain kernel's.
+template <int D>
+void check_kernels(NormalLaw normal_law) {
+  Scene scene = sheared_scene<D>(0.5, 1);
+  if (normal_law == NormalLaw::hertz) {
+    scene.material.normal_law = normal_law;
+    scene.material.normal_stiffness.reset();
+    scene.material.young_modulus = 1e4;
+    scene.material.poisson_ratio = 0.3;
+  }
+  const Sample<D> sample = sheared_sample<D>(D == 2 ? 5 : 3);
+  const auto plain = make_engine<D>(EngineKind::md, scene, sample);
+  scene.md.energy_budget = true;
+  const auto general = make_engine<D>(EngineKind::md, scene, sample);
+  plain->advance(2000);
+  general->advance(2000);
+  EXPECT_EQ(largest_difference<D>(plain->snapshot().position, general->snapshot().position), 0);
+  EXPECT_EQ(largest_difference<D>(plain->snapshot().velocity, general->snapshot().velocity), 0);
+}
+
+TEST(Layout, PlainAndGeneralKernelsAgreeToTheLastBit) {
+  for (NormalLaw law : {NormalLaw::linear, NormalLaw::hertz}) {
+    check_kernels<2>(law);
+    check_kernels<3>(law);
+  }
+}
+
 TEST(Layout, SmallestLayoutIsDeduced) {
   Scene scene = periodic_scene(3, 0, 0.5, 1e3);
   const Sample<3> sample = gas_sample<3>(3, 0.2, 0.1, 1);
@@ -74,6 +122,10 @@ TEST(Layout, SmallestLayoutIsDeduced) {
   scene.material.friction = 0.01;
   EXPECT_TRUE(derive_for<3>(scene, sample).layout.friction);
   EXPECT_EQ(derive_for<3>(scene, sample).layout.dim, 3);
+  EXPECT_FALSE(derive_for<3>(scene, sample).layout.rolling);
+  scene.material.friction = 0;
+  scene.material.pivoting_friction = 0.01;
+  EXPECT_EQ(derive_for<3>(scene, sample).layout, (Layout{3, true, true}));
 }
 
 }  // namespace
