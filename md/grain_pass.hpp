@@ -2,11 +2,16 @@
 //
 // Time scheme (velocity Verlet with predicted velocities, second order for smooth forces). Between steps the state is
 // (x, v, a) at one time, a = F/m + gravity - L v. One step:
-//   drift   v_half = v + dt/2 a;  x' = F x + dt A v_half;  contacts see v_half + dt/2 a
+//   drift   v_half = v + dt/2 a;  x' = F x + dt A v_half;  contacts see v_half + dt/2 (a + (a - a_before)/2)
 //           with A = (1 - dt/2 L)^-1 and F = A (1 + dt/2 L): the same map moves grains and box, so that images stay
 //           images to rounding
 //   gather  a' from the contact rows, in a fixed order (rows as second member, then as first); v' = v_half + dt/2 a'
 // Rotations likewise, without the cell.
+//
+// Why the acceleration is extrapolated: springs that never slide integrate the velocities that contacts see. With the
+// plain prediction v_half + dt/2 a an undamped spring of frequency w gains amplitude, (w dt)^4 / 8 a step, and nothing
+// else damps the spins of stuck grains. With a share c of the extrapolation it gains (1 - 3 c) (w dt)^4 / 8: a loss of
+// (w dt)^4 / 16 for c = 1/2, which also halves the error of the velocities that the dashpots see.
 #pragma once
 
 #include "common/core/parallel.hpp"
@@ -23,11 +28,35 @@ struct Accelerations {
   Column<Vec<Y.dim>> linear;
   Column<Spin<Y.dim>, Y.friction> angular;
   std::vector<double> modes;  ///< of the cell's rates; zero for rate-driven modes
+
+  void save(Archive& archive, const std::string& name) const {
+    put_column(archive, name + ".linear", linear);
+    if constexpr (Y.friction) put_column(archive, name + ".angular", angular);
+    archive.reals[name + ".modes"] = modes;
+  }
+  void restore(const Archive& archive, const std::string& name) {
+    take_column(archive, name + ".linear", linear);
+    if constexpr (Y.friction) take_column(archive, name + ".angular", angular);
+    take_column(archive, name + ".modes", modes);
+  }
 };
 
-/// First half of the step. On return the bodies hold v_half and the new positions, `seen` the predicted velocities.
+/// Share c of the last change of acceleration that velocities seen by contacts are extrapolated with.
+constexpr double kExtrapolation = 0.5;
+
+/// The acceleration expected for the step to come; keeps the present one as `before`.
+template <class Value>
+Value expected(const Value& now, Value& before) {
+  const Value change = now - before;
+  before = now;
+  return now + kExtrapolation * change;
+}
+
+/// First half of the step. On return the bodies hold v_half and the new positions, `seen` the predicted velocities, and
+/// `before` the present accelerations.
 template <Layout Y>
-void drift(Bodies<Y>& bodies, const Accelerations<Y>& acceleration, Seen<Y>& seen, double dt) {
+void drift(Bodies<Y>& bodies, const Accelerations<Y>& acceleration, Accelerations<Y>& before, Seen<Y>& seen,
+           double dt) {
   constexpr int D = Y.dim;
   const Mat<D> identity = Mat<D>::Identity();
   const Mat<D> gradient = bodies.cell.rate;  // L at the half step
@@ -37,18 +66,16 @@ void drift(Bodies<Y>& bodies, const Accelerations<Y>& acceleration, Seen<Y>& see
   const bool still = gradient.isZero(0);
   parallel_ranges(bodies.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec<D> kick = 0.5 * dt * acceleration.linear[i];
-      const Vec<D> half = bodies.velocity[i] + kick;
+      const Vec<D> half = bodies.velocity[i] + 0.5 * dt * acceleration.linear[i];
       if (still)
         bodies.position[i] += dt * half;
       else
         bodies.position[i] = deform * bodies.position[i] + step * half;
       bodies.velocity[i] = half;
-      seen.velocity[i] = half + kick;
+      seen.velocity[i] = half + 0.5 * dt * expected(acceleration.linear[i], before.linear[i]);
       if constexpr (Y.friction) {
-        const Spin<D> turn = 0.5 * dt * acceleration.angular[i];
-        bodies.spin[i] += turn;
-        seen.spin[i] = bodies.spin[i] + turn;
+        bodies.spin[i] += 0.5 * dt * acceleration.angular[i];
+        seen.spin[i] = bodies.spin[i] + 0.5 * dt * expected(acceleration.angular[i], before.angular[i]);
       }
     }
   });

@@ -48,6 +48,7 @@ class SoftEngine final : public Engine<Y.dim> {
     list_.configure(range_, 0.15 * derived.grains.mean_diameter);
     update_neighbours();
     evaluate(0);
+    before_ = acceleration_;
   }
 
   std::string_view name() const override { return "md"; }
@@ -83,9 +84,8 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.save(archive);
     list_.save(archive);
     contacts_.save(archive);
-    put_column(archive, "md.acceleration", acceleration_.linear);
-    if constexpr (Y.friction) put_column(archive, "md.angular_acceleration", acceleration_.angular);
-    archive.reals["md.mode_acceleration"] = acceleration_.modes;
+    acceleration_.save(archive, "md.acceleration");
+    before_.save(archive, "md.acceleration_before");
     energy_account_.save(archive);
     archive.reals["md.dt"] = {dt_};
     archive.integers["steps"] = {steps_};
@@ -97,9 +97,8 @@ class SoftEngine final : public Engine<Y.dim> {
     contacts_.restore(archive, list_.size());
     set_row_constants();
     energy_account_.restore(archive);
-    take_column(archive, "md.acceleration", acceleration_.linear);
-    if constexpr (Y.friction) take_column(archive, "md.angular_acceleration", acceleration_.angular);
-    take_column(archive, "md.mode_acceleration", acceleration_.modes);
+    acceleration_.restore(archive, "md.acceleration");
+    before_.restore(archive, "md.acceleration_before");
     dt_ = real_column(archive, "md.dt").at(0);
     steps_ = integer_column(archive, "steps").at(0);
   }
@@ -112,7 +111,7 @@ class SoftEngine final : public Engine<Y.dim> {
     {
       StageTimer timer(profile_, Stage::grains);
       kick_modes();
-      drift(bodies_, acceleration_, seen_, dt_);
+      drift(bodies_, acceleration_, before_, seen_, dt_);
       predict_modes();
     }
     {
@@ -192,7 +191,7 @@ class SoftEngine final : public Engine<Y.dim> {
   void predict_modes() {
     seen_.gradient = bodies_.cell.rate;
     for (std::size_t k = 0; k < bodies_.modes.size(); ++k)
-      seen_.gradient += 0.5 * dt_ * acceleration_.modes[k] * bodies_.modes[k].direction;
+      seen_.gradient += 0.5 * dt_ * expected(acceleration_.modes[k], before_.modes[k]) * bodies_.modes[k].direction;
   }
 
   void accelerate_modes(const Mat<D>& virial, double kick_dt) {
@@ -269,7 +268,7 @@ class SoftEngine final : public Engine<Y.dim> {
 
   Bodies<Y> bodies_;
   Seen<Y> seen_;
-  Accelerations<Y> acceleration_;
+  Accelerations<Y> acceleration_, before_;  ///< now and a step ago
   VerletList<D> list_;
   Contacts<Y> contacts_, carried_;
   ContactPass<Y> pass_;

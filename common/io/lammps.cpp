@@ -238,7 +238,8 @@ void write_lammps_data(const std::string& path, const Sample<D>& sample) {
   const double low_z = D == 2 ? -thickness / 2 : 0;
 
   const int types = sample.count() == 0 ? 1 : 1 + *std::max_element(sample.material.begin(), sample.material.end());
-  std::string text = fmt::format("LAMMPS data file written by galet\n\n{} atoms\n{} atom types\n\n", sample.count(), types);
+  std::string text =
+      fmt::format("LAMMPS data file written by galet\n\n{} atoms\n{} atom types\n\n", sample.count(), types);
   text += fmt::format("0 {} xlo xhi\n0 {} ylo yhi\n{} {} zlo zhi\n", box(0, 0), box(1, 1), low_z, low_z + box(2, 2));
   if (box(0, 1) != 0 || box(0, 2) != 0 || box(1, 2) != 0)
     text += fmt::format("{} {} {} xy xz yz\n", box(0, 1), box(0, 2), box(1, 2));
@@ -246,8 +247,8 @@ void write_lammps_data(const std::string& path, const Sample<D>& sample) {
   for (int i = 0; i < sample.count(); ++i) {
     const double diameter = 2 * sample.radius[i];
     const Vec<3> x = in_space<D>(sample.position[i]);
-    text += fmt::format("{} {} {} {} {} {} {}\n", i + 1, sample.material[i] + 1, diameter, sample.mass[i] / grain_volume<D>(diameter), x.x(),
-                        x.y(), x.z());
+    text += fmt::format("{} {} {} {} {} {} {}\n", i + 1, sample.material[i] + 1, diameter,
+                        sample.mass[i] / grain_volume<D>(diameter), x.x(), x.y(), x.z());
   }
   text += "\nVelocities\n\n";
   for (int i = 0; i < sample.count(); ++i) {

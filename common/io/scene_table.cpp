@@ -265,7 +265,7 @@ void add_engines(Rows& rows) {
   rows.push_back({.path = "md.energy_budget",
                   .target = [](Scene& s) -> FieldTarget { return &s.md.energy_budget; },
                   .doc = "account for the work of drives and planes and for dissipation by channel; adds a quarter "
- "to two fifths to the cost of a step"});
+                         "to two fifths to the cost of a step"});
   rows.push_back({.path = "md.drag",
                   .target = [](Scene& s) -> FieldTarget { return &s.md.drag; },
                   .quantity = Quantity::rate,

@@ -227,7 +227,7 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   add("duration", derived.duration, "simulated time");
   add("md dt", derived.md_dt,
       scene.md.dt ? "md.dt" : "tau_c of the lightest pair / md.steps_per_contact, within the bound");
-  add("md dt bound", derived.md_dt_stable, "stability: stiffness, least mass, damping, 6 (2D) or 9 (3D) neighbours");
+  add("md dt bound", derived.md_dt_stable, "stability: stiffness, least mass, damping, 6 (2D) or 12 (3D) neighbours");
   add("cd dt", derived.cd_dt, scene.cd.dt ? "cd.dt" : "cd.dt_factor * shortest of tau_i, 1/rate, d/speed, sqrt(d/g)");
   return lines;
 }

@@ -58,9 +58,10 @@ void assign_materials(const Scene& scene, Sample<D>& sample) {
     const int materials = static_cast<int>(scene.other_materials.size()) + 1;
     for (int i = 0; i < sample.count(); ++i)
       if (sample.material[i] < 0 || sample.material[i] >= materials)
-        throw InputError(fmt::format("initial.file: grain {} is of material {}, but the scene has only {} (0 is "
-                                     "[material], LAMMPS counts types from 1)",
-                                     i, sample.material[i], materials));
+        throw InputError(
+            fmt::format("initial.file: grain {} is of material {}, but the scene has only {} (0 is "
+                        "[material], LAMMPS counts types from 1)",
+                        i, sample.material[i], materials));
     return;
   }
   sample.material.assign(sample.count(), 0);

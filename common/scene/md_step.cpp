@@ -49,23 +49,32 @@ double stiffness_at(const Derived& derived, const PairLaw& law, const Severity& 
   return stiffness;
 }
 
-/// Stability bound of the step. Elastic part: the stiffest mode of a packing has
-/// omega^2 <= 1.15 z K_N / m_least * max(1, (K_T/K_N) (1 + m R^2/I) + K_R / (K_N I/m)), z the largest number of
-/// neighbours of the lightest grain (6 disks, 9 spheres): above every eigenvalue measured for K_T/K_N in 0 .. 0.8.
-/// Damping: the damping rate of the stiffest mode is c = alpha z / m_least; with zeta = c / (2 omega) the scheme is
-/// stable for omega dt <= 1 / (0.5 + 1.9 zeta) (a fit below the scheme's own limit for every zeta <= 3).
+/// Stability bound of the step. Stiffest modes of a packing whose lightest grain has z neighbours (6 disks, 12 spheres,
+/// as in crystals; disordered packings stay below), in units of K_N / m_least:
+///   translations            z
+///   all spins alike         2 z (K_T/K_N) (m R^2/I), in 3D 2/3 of it: every contact slides by both spins
+///   spins against another   2 z K_R / (K_N I/m)
+/// omega^2 is 1.15 times the largest one (of the sum of the last two), for unlike grains and mixed modes. Damping: with
+/// c the rate of the mode's dashpots and zeta = c / (2 omega) the scheme is stable for
+///   omega dt <= 1 / (0.5 + 2.75 zeta), with friction also <= 0.94
+/// (largest eigenvalue of one step of an oscillator whose spring follows the position, or the velocities that contacts
+/// see, or both: a fit below the scheme's own limit for every zeta <= 3).
 double stable_dt(int dim, const PairLaw& law, double stiffness, const GrainFacts& grains) {
-  const double neighbours = dim == 2 ? 6 : 9;
+  const double neighbours = dim == 2 ? 6 : 12;
   const double gyration = dim == 2 ? inertia_ratio<2> : inertia_ratio<3>;  // I / (m R^2)
   const double mass = grains.least_mass;
-  const double sliding = law.friction > 0 ? law.tangential_ratio * (1 + 1 / gyration) : 0;
+  const double spinning = 2 / gyration * (dim == 2 ? 1 : 2.0 / 3);
+  const double sliding = law.friction > 0 ? law.tangential_ratio * spinning : 0;
   const double lever = 2 * std::max(law.rolling_friction, law.pivoting_friction) / grains.least_diameter;
-  const double turning = sliding + law.rolling_ratio * lever * lever / gyration;
+  const double turning = sliding + 2 * law.rolling_ratio * lever * lever / gyration;
   const double omega = std::sqrt(1.15 * neighbours * stiffness / mass * std::max(1.0, turning));
-  const double damping = std::max(law.damping_ratio, law.tangential_damping_ratio * std::sqrt(sliding));
-  const double alpha = damping * 2 * std::sqrt(mass / 2 * stiffness);
-  const double zeta = alpha * neighbours / mass / (2 * omega);
-  return 1 / (omega * (0.5 + 1.9 * zeta));
+  // alpha_T of a pair is zeta_T sqrt(K_T/K_N k/(1 + k)) times the critical normal one, k = I / (m R^2).
+  const double tangential =
+      law.tangential_damping_ratio * std::sqrt(law.tangential_ratio * gyration / (1 + gyration)) * spinning;
+  const double damping = std::max(law.damping_ratio, law.friction > 0 ? tangential : 0);
+  const double zeta = damping * 2 * std::sqrt(mass / 2 * stiffness) * neighbours / mass / (2 * omega);
+  const double limit = 1 / (0.5 + 2.75 * zeta);
+  return (law.friction > 0 ? std::min(0.94, limit) : limit) / omega;
 }
 
 }  // namespace

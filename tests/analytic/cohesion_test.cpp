@@ -124,8 +124,10 @@ void check_equilibrium(const Law& law) {
   engine->advance(4000);
   const Snapshot<D> state = engine->snapshot();
   ASSERT_EQ(state.contacts->size(), 1u);
-  EXPECT_NEAR(-state.contacts->gap[0], expected, 2e-14);          // positions of order 10
-  EXPECT_LT(state.contacts->force[0].norm(), 2e-14 * 2 * slope);  // ... times K_N
+  // Positions of order 10 stand still once they should move by less than 9e-16 in a step; the drift towards h0 is
+  // 0.05 (h - h0) / (2 zeta) per step or half of that: 4e-14, and as much again for the rounding of h itself.
+  EXPECT_NEAR(-state.contacts->gap[0], expected, 8e-14);
+  EXPECT_LT(state.contacts->force[0].norm(), 8e-14 * slope);
 }
 
 TEST(Cohesion, EquilibriumDeflection) {
@@ -282,10 +284,12 @@ TEST(Cohesion, EnergyThroughCaptureAndEscape) {
         energy[level] += seen.energy / phases, speed[level] += seen.speed / phases;
       }
     // Second order where the force is continuous. Without a range the force jumps by F0 (a step across misplaces up to
-    // F0 v dt, i.e. 0.8 dt in these units, at either end) or starts as sqrt(h) ((v dt)^(3/2)).
+    // F0 v dt, i.e. 0.8 dt in these units, at either end) or starts as sqrt(h) ((v dt)^(3/2)). With one, the scheme's
+    // ripple of some (w0 dt)^2 / 8 of the energy at the bottom, F0 (h0 + D0 / 2).
     EXPECT_GT(observed_order(dt, energy), well.order - 0.2) << energy[0] << " " << energy[4];
     EXPECT_GT(observed_order(dt, speed), well.order - 0.2) << speed[0] << " " << speed[4];
-    EXPECT_LT(energy[4], 2 * std::pow(dt[4], well.order));
+    const double depth = well.range / (2 * well.law.under(well.law.coefficient(0.25), cohesion));
+    EXPECT_LT(energy[4], (2 + depth / 2) * std::pow(dt[4], well.order));
     EXPECT_LT(speed[4], 4 * std::pow(dt[4], well.order));
   }
 }

@@ -6,7 +6,8 @@
 //        F_T / (mu F_N) = psi_1 there, 1 above. Sliding lasts throughout, with psi_2 = psi_1 - 4 chi, as long as the
 //        spring would outgrow the bound. While the contact opens at speed v the bound falls at mu K_N v, the spring
 //        (loaded to mu F_N = (2/3) mu K_N h and rescaled with K_T ~ sqrt(h)) at mu K_N v / 3 less K_T u_T: sliding ends
-//        first at the very end, and only if psi_2 < -2/3 (-1 in the full theory, which lets the rim of the contact slip).
+//        first at the very end, and only if psi_2 < -2/3 (-1 in the full theory, which lets the rim of the contact
+//        slip).
 #include <gtest/gtest.h>
 
 #include "tests/support/impact.hpp"
@@ -36,7 +37,8 @@ struct Strike {
   /// Largest elastic deflection over R: the lever arm R - h is that much shorter than the R of the closed forms.
   double softness() const {
     return (law == NormalLaw::linear ? normal_speed * std::sqrt(mass / stiffness)
-                                     : hertz_impact(coefficient(), mass, normal_speed).deflection) / radius;
+                                     : hertz_impact(coefficient(), mass, normal_speed).deflection) /
+           radius;
   }
 };
 
@@ -82,7 +84,8 @@ After strike(const Strike& strike, double steps_per_contact) {
   const Vec<3> v = state.velocity[0] / strike.normal_speed, w = state.spin[0] * strike.radius / strike.normal_speed;
   const Vec<3> axis = down.cross(along);  // rolling along `along` turns about -(down x along): rim = -w.axis
   const double rim = -w.dot(axis);
-  return {-v.dot(down), v.dot(along), rim, (v - v.dot(down) * down - v.dot(along) * along).norm() + (w + rim * axis).norm()};
+  return {-v.dot(down), v.dot(along), rim,
+          (v - v.dot(down) * down - v.dot(along) * along).norm() + (w + rim * axis).norm()};
 }
 
 TEST(SlidingLaw, ChungAndOoiTestFive) {
@@ -150,7 +153,8 @@ TEST(SlidingLaw, WaltonWithRestitution) {
           // the damping force, at either end: 2 zeta pi / steps.
           const double zeta = e == 1 ? 0 : 1.1;
           const double loading = convention == DampingConvention::total
-                                     ? 2 * std::pow(friction * zeta * 2, 2) / friction * speed / given.slip_speed : 0;
+                                     ? 2 * std::pow(friction * zeta * 2, 2) / friction * speed / given.slip_speed
+                                     : 0;
           const double relative = loading + 2 * zeta * pi / steps + given.softness() + 1e-5;
           EXPECT_NEAR(beta, expected, relative * (1 + expected));
           EXPECT_NEAR((given.slip_speed / speed - after.tangential) / (1 + after.normal), friction,
@@ -208,7 +212,8 @@ TEST(SlidingLaw, StartsStickingBelowOne) {
     const Oblique oblique{0.3, psi};
     const double steps = 20000;
     const auto engine = strike_engine(oblique.strike(), steps);
-    // After a time 0.01 of the contact's duration u_T has changed by (0.01)^(5/2), the spring still grows with the force.
+    // After a time 0.01 of the contact's duration u_T has changed by (0.01)^(5/2), the spring still grows with the
+    // force.
     engine->advance(std::lround(0.01 * steps));
     const Snapshot<3> state = engine->snapshot();
     ASSERT_EQ(state.contacts->size(), 1u);
@@ -227,13 +232,20 @@ TEST(SlidingLaw, RegimesAgainstTheIntegration) {
     SCOPED_TRACE(psi);
     const Oblique oblique{0.3, psi};
     const Strike given = oblique.strike();
-    const PlanarLaw law{NormalLaw::hertz, DampingConvention::elastic, given.coefficient(), oblique.stiffness_ratio(), 0,
-                        0, Oblique::friction, true};
+    const PlanarLaw law{NormalLaw::hertz,
+                        DampingConvention::elastic,
+                        given.coefficient(),
+                        oblique.stiffness_ratio(),
+                        0,
+                        0,
+                        Oblique::friction,
+                        true};
     PlanarState start;
     start.x = Vec<2>(given.radius, 0);
     start.u = Vec<2>(-given.normal_speed, given.slip_speed);
     const PlanarState end = PlanarImpact(law, bodies).run(start, given.duration() / 4e4);
-    const double expected = (end.u.y() - given.radius * end.w0) / (Oblique::friction * given.normal_speed) * oblique.stiffness_ratio();
+    const double expected =
+        (end.u.y() - given.radius * end.w0) / (Oblique::friction * given.normal_speed) * oblique.stiffness_ratio();
     // Two events (stick to slide and back) mistimed by a step each at 8000 steps, of a rate that differs by order 1.
     EXPECT_NEAR(psi_after(oblique, 8000), expected, 1e-3);
     least = std::min(least, expected);

@@ -11,9 +11,9 @@
 #include "common/measure/block_average.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
-#include "common/scene/pair_law.hpp"
 #include "common/measure/stress.hpp"
 #include "common/measure/velocity_profile.hpp"
+#include "common/scene/pair_law.hpp"
 #include "tests/support/brute_force.hpp"
 
 namespace galet {
