@@ -55,7 +55,7 @@ measured_on hertz_compression
 echo "## The same packing in LAMMPS"
 cat <<'END'
 
-A packing of 1000 spheres (μ = 0.3, K_T = 2/7 K_N, `total` convention) sheared in the solid regime by both codes from the same state
+A packing of 500 spheres (μ = 0.3, K_T = 2/7 K_N, `total` convention) sheared in the solid regime by both codes from the same state
 (`benchmarks/peers/lammps.sh`; what differs and why is at the head of `benchmarks/peers/lammps.cpp`). `position_*`: rms distance from md's
 run at the finest step, over the rms non-affine displacement; `stress_*`: largest difference of a component over the largest component.
 

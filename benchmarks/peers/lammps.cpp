@@ -2,14 +2,16 @@
 //
 //   lammps_peer FOLDER [N]      writes its inputs to FOLDER, runs `lmp` there, prints a CSV table and verdicts
 //
-// A packing of N = 1000 equal spheres, assembled without friction at stiffness level kappa and at rest, is sheared at
+// A packing of N = 500 equal spheres, assembled without friction at stiffness level kappa and at rest, is sheared at
 // constant volume by a strain of 0.3 / kappa in 200 collision times, with mu = 0.3, K_T = 2/7 K_N and the `total`
 // viscous convention (LAMMPS: limit_damping). At tau_c / 50 these are 1e4 steps. The two codes differ in three known
 // ways:
 //   - LAMMPS takes velocities of the half step in forces and springs, an error of first order in dt;
 //   - its tangential velocity and torques have the lever arms R, ours |b| R / (R_i + R_j), a difference of 1 / kappa;
 //   - it projects springs on the tangent plane, we rotate them: of second order in the rotation of a contact.
-// So its final state must approach ours at first order in dt, down to a rest that falls like 1 / kappa.
+// So its final state must approach ours at first order in dt, down to a rest that falls like 1 / kappa. This shows as
+// long as both have the same contacts: in larger packings (N = 1000 at kappa = 1e4) a contact of a loosely held grain
+// opens or not according to the step, in either code, and differences stay at 1e-3 of the non-affine displacement.
 // Speeds are of one core, in one run on one machine; only their ratio says something.
 #include "common/io/lammps.hpp"
 
@@ -247,8 +249,10 @@ int run(const std::filesystem::path& folder, int count) {
     rest.push_back(std::abs(2 * rows[3].lammps - rows[2].lammps));
     sound &= verdict(fmt::format("kappa = {:g}: LAMMPS within 2 % of the non-affine displacement at tau_c/50", kappa),
                      rows[0].lammps < 0.02);
-    sound &= verdict(fmt::format("kappa = {:g}: LAMMPS approaches galet as dt falls", kappa),
-                     rows[3].lammps < 0.5 * rows[0].lammps);
+    // First order down to a rest: successive differences halve.
+    const double order = std::log2((rows[0].lammps - rows[1].lammps) / (rows[1].lammps - rows[2].lammps));
+    sound &= verdict(fmt::format("kappa = {:g}: LAMMPS approaches galet as dt falls, at order {:.2f}", kappa, order),
+                     order > 0.7);
     sound &= verdict(fmt::format("kappa = {:g}: galet's own error at tau_c/50 is below a third of LAMMPS's", kappa),
                      rows[0].galet < rows[0].lammps / 3);
   }
@@ -265,7 +269,7 @@ int main(int argc, char** argv) try {
     fmt::print(stderr, "usage: lammps_peer FOLDER [N]\n");
     return 2;
   }
-  return galet::bench::run(argv[1], argc > 2 ? std::atoi(argv[2]) : 1000);
+  return galet::bench::run(argv[1], argc > 2 ? std::atoi(argv[2]) : 500);
 } catch (const std::exception& error) {
   fmt::print(stderr, "lammps_peer: {}\n", error.what());
   return 1;
