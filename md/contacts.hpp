@@ -1,103 +1,206 @@
-// One row per listed pair: the forces that the contact pass writes and the histories that the laws need.
+// One row per listed pair, in blocks of eight: what the contact pass works on (kernel/view.hpp).
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
 
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
 #include "common/core/layout.hpp"
 #include "common/core/types.hpp"
 #include "common/neighbour/verlet_list.hpp"
+#include "md/kernel/view.hpp"
 
 namespace galet::md {
+
+/// A cache line of doubles: what aligns the memory of the lanes.
+struct alignas(64) Line {
+  double value[8] = {};
+};
 
 /// What the pair of a row is doing.
 enum class RowState : std::uint8_t { apart, touching, attracted /**< across a gap, by a cohesion of range D0 */ };
 
 template <Layout Y>
-struct Contacts {
+class Contacts {
+ public:
   static constexpr int D = Y.dim;
-  static constexpr bool transported = Y.friction && Y.dim == 3;
-  static constexpr bool pivots = Y.rolling && Y.dim == 3;
+  using C = RowColumns<Y>;
 
-  Column<Vec<D>> force;  ///< F on j; zero when apart
-  Column<std::uint8_t> state;
-  Column<std::uint8_t> law;              ///< index of the pair of materials
-  Column<double> coefficient, critical;  ///< of the pair, see laws/terms.hpp
-  Column<Spin<D>, Y.friction> twist;     ///< |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist
-  Column<Spin<D>, Y.friction> spring;    ///< stored elongation (a scalar in 2D), see laws/spring.hpp
-  Column<double, Y.friction> stiffness_before;  ///< K_N at the last step; hertz only, else empty
-  Column<Vec<D>, transported> normal;           ///< n when the springs were last updated
-  Column<Spin<D>, Y.rolling> torque;            ///< rolling and pivoting torque on j
-  Column<Spin<D>, Y.rolling> rolling;           ///< stored rotation of the rolling spring
-  Column<double, pivots> pivoting;              ///< the same about the normal
+  bool varying_stiffness = false;  ///< whether rows remember their stiffness
 
-  bool varying_stiffness = false;  ///< whether stiffness_before is needed
+  std::size_t size() const { return rows_; }
+  std::size_t block_count() const { return blocks_.size(); }
+  RowBlock* blocks() { return blocks_.data(); }
+  double* columns() { return columns_.data()->value; }
+  double* out() { return out_.data()->value; }
+  const double* out() const { return out_.data()->value; }
 
-  std::size_t size() const { return state.size(); }
-  bool touches(std::size_t row) const { return state[row] == static_cast<std::uint8_t>(RowState::touching); }
-  bool acts(std::size_t row) const { return state[row] != static_cast<std::uint8_t>(RowState::apart); }
-  void set(std::size_t row, RowState to) { state[row] = static_cast<std::uint8_t>(to); }
+  double& at(std::size_t row, int column) {
+    return columns_[row / block_rows * C::count + column].value[row % block_rows];
+  }
+  double at(std::size_t row, int column) const {
+    return columns_[row / block_rows * C::count + column].value[row % block_rows];
+  }
+  RowBlock& block_of(std::size_t row) { return blocks_[row / block_rows]; }
+  int law(std::size_t row) const { return blocks_[row / block_rows].law[row % block_rows]; }
 
-  /// Calls visit(name, column) for every column of histories and forces that this layout has.
-  template <class Self, class Visit>
-  static void each(Self& self, Visit visit) {
-    visit("contacts.force", self.force);
-    if constexpr (Y.friction) visit("contacts.twist", self.twist), visit("contacts.spring", self.spring);
-    if constexpr (Y.friction)
-      if (self.varying_stiffness) visit("contacts.stiffness", self.stiffness_before);
-    if constexpr (transported) visit("contacts.normal", self.normal);
-    if constexpr (Y.rolling) visit("contacts.torque", self.torque), visit("contacts.rolling", self.rolling);
-    if constexpr (pivots) visit("contacts.pivoting", self.pivoting);
+  RowState state(std::size_t row) const {
+    const RowBlock& block = blocks_[row / block_rows];
+    if (block.touching >> row % block_rows & 1) return RowState::touching;
+    return block.attracted >> row % block_rows & 1 ? RowState::attracted : RowState::apart;
+  }
+  bool touches(std::size_t row) const { return state(row) == RowState::touching; }
+  bool acts(std::size_t row) const { return state(row) != RowState::apart; }
+
+  /// F on j; zero when apart.
+  Vec<D> force(std::size_t row) const { return out_vector(row, 0); }
+  /// |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist.
+  Spin<D> twist(std::size_t row) const requires(Y.friction) { return out_spin(row, D == 2 ? 2 : 4); }
+  /// Rolling and pivoting torque on j.
+  Spin<D> torque(std::size_t row) const requires(Y.rolling) { return out_spin(row, D == 2 ? 3 : 8); }
+  /// Stored elongation of the tangential spring.
+  Spin<D> spring(std::size_t row) const requires(Y.friction) {
+    if constexpr (D == 2)
+      return at(row, C::spring);
+    else
+      return {at(row, C::spring), at(row, C::spring + 1), at(row, C::spring + 2)};
   }
 
-  /// All rows apart and without history.
-  void clear(std::size_t rows) {
-    refill(state, rows, std::uint8_t{0});
-    refill(law, rows, std::uint8_t{0});
-    refill(coefficient, rows, 0.0);
-    refill(critical, rows, 0.0);
-    each(*this, [&](const char*, auto& column) { zero(column, rows); });
-  }
-
-  /// Takes over the rows of `old` that the rebuilt list still has; forces are computed anew by the next pass.
-  void carry(const Contacts& old, const VerletList<D>& list) {
-    clear(list.size());
-    for (std::size_t row = 0; row < list.size(); ++row) {
+  /// Takes over the rows of `old` that the rebuilt list still has; forces are computed anew by the next pass. The
+  /// caller fills in the constants of the rows.
+  void carry(const Contacts& old, const VerletList<D>& list, int grains) {
+    clear(list, grains);
+    for (std::size_t row = 0; row < rows_; ++row) {
       const int from = list.origin()[row];
       if (from < 0) continue;
-      state[row] = old.state[from];
-      // When i and j change places, vectors and relative rotations change sign; the scalar spring of a disk contact and
-      // a rotation about the normal do not.
-      const double sign = list.flipped(row) ? -1 : 1;
-      if constexpr (Y.friction) spring[row] = (D == 3 ? sign : 1) * old.spring[from];
-      if constexpr (Y.friction)
-        if (varying_stiffness) stiffness_before[row] = old.stiffness_before[from];
-      if constexpr (transported) normal[row] = sign * old.normal[from];
-      if constexpr (Y.rolling) rolling[row] = sign * old.rolling[from];
-      if constexpr (pivots) pivoting[row] = old.pivoting[from];
+      set_state(row, old.state(from));
+      if constexpr (Y.friction) {
+        // When i and j change places, vectors and relative rotations change sign; the scalar spring of a disk contact
+        // and a rotation about the normal do not.
+        const double sign = list.flipped(row) ? -1 : 1;
+        const auto take = [&](int first, int last, double factor) {
+          for (int column = first; column < last; ++column) at(row, column) = factor * old.at(from, column);
+        };
+        take(C::spring, C::normal, D == 3 ? sign : 1);
+        take(C::normal, C::stiffness, sign);
+        take(C::stiffness, C::rolling, 1);
+        if constexpr (Y.rolling) take(C::rolling, C::pivoting, sign), take(C::pivoting, C::count, 1);
+      }
     }
   }
 
+  /// Lattice coordinates of the images that rows refer to, in the order of their `shift`.
+  const std::vector<Image<D>>& images() const { return images_; }
+
   void save(Archive& archive) const {
-    archive.integers["contacts.state"].assign(state.begin(), state.end());
-    each(*this, [&](const char* name, const auto& column) { put_column(archive, name, column); });
+    std::vector<std::int64_t>& states = archive.integers["contacts.state"];
+    states.resize(rows_);
+    for (std::size_t row = 0; row < rows_; ++row) states[row] = static_cast<std::int64_t>(state(row));
+    each_part([&](const char* name, int size, auto value) {
+      std::vector<double>& column = archive.reals[name];
+      column.resize(rows_ * size);
+      for (std::size_t row = 0; row < rows_; ++row)
+        for (int k = 0; k < size; ++k) column[row * size + k] = value(*this, row, k);
+    });
   }
 
-  void restore(const Archive& archive, std::size_t rows) {
-    clear(rows);
+  void restore(const Archive& archive, const VerletList<D>& list, int grains) {
+    clear(list, grains);
     const auto& states = integer_column(archive, "contacts.state");
-    if (states.size() != rows) throw InputError("column 'contacts.state' of the checkpoint has the wrong length");
-    state.assign(states.begin(), states.end());
-    each(*this, [&](const char* name, auto& column) { take_column(archive, name, column); });
+    if (states.size() != rows_) throw InputError("column 'contacts.state' of the checkpoint has the wrong length");
+    for (std::size_t row = 0; row < rows_; ++row) set_state(row, static_cast<RowState>(states[row]));
+    each_part([&](const char* name, int size, auto value) {
+      const std::vector<double>& column = real_column(archive, name);
+      if (column.size() != rows_ * size)
+        throw InputError(std::string("column '") + name + "' of the checkpoint has the wrong length");
+      for (std::size_t row = 0; row < rows_; ++row)
+        for (int k = 0; k < size; ++k) value(*this, row, k) = column[row * size + k];
+    });
   }
 
  private:
-  static void zero(Column<double>& column, std::size_t rows) { refill(column, rows, 0.0); }
-  template <int Size>
-  static void zero(Column<Eigen::Matrix<double, Size, 1>>& column, std::size_t rows) {
-    refill(column, rows, Eigen::Matrix<double, Size, 1>::Zero());
+  Vec<D> out_vector(std::size_t row, int first) const {
+    const double* from = out() + row * out_size(Y) + first;
+    return Eigen::Map<const Vec<D>>(from);
   }
+  Spin<D> out_spin(std::size_t row, int first) const {
+    if constexpr (D == 2)
+      return out()[row * out_size(Y) + first];
+    else
+      return out_vector(row, first);
+  }
+
+  /// Calls visit(name, components, value) for each quantity of a row that a checkpoint holds; value(contacts, row, k).
+  template <class Visit>
+  void each_part(Visit visit) const {
+    const auto result = [&](const char* name, int first, int size) {
+      visit(
+          name, size, [first](auto& self, std::size_t row, int k) -> auto& {
+            return self.out()[row * out_size(Y) + first + k];
+          });
+    };
+    const auto memory = [&](const char* name, int first, int last) {
+      visit(name, last - first,
+            [first](auto& self, std::size_t row, int k) -> decltype(auto) { return self.at(row, first + k); });
+    };
+    result("contacts.force", 0, D);
+    if constexpr (Y.friction) {
+      result("contacts.twist", D == 2 ? 2 : 4, D == 2 ? 1 : 3);
+      memory("contacts.spring", C::spring, C::normal);
+      if (varying_stiffness) memory("contacts.stiffness", C::stiffness, C::rolling);
+      if constexpr (D == 3) memory("contacts.normal", C::normal, C::stiffness);
+    }
+    if constexpr (Y.rolling) {
+      result("contacts.torque", D == 2 ? 3 : 8, D == 2 ? 1 : 3);
+      memory("contacts.rolling", C::rolling, C::pivoting);
+      if constexpr (D == 3) memory("contacts.pivoting", C::pivoting, C::count);
+    }
+  }
+
+  void set_state(std::size_t row, RowState to) {
+    RowBlock& block = block_of(row);
+    const auto bit = static_cast<std::uint8_t>(1u << row % block_rows);
+    if (to == RowState::touching) block.touching |= bit;
+    if (to == RowState::attracted) block.attracted |= bit;
+  }
+
+  /// All rows apart and without history. Rows that only fill the last block refer to the two records after the grains.
+  void clear(const VerletList<D>& list, int grains) {
+    const PairColumns<D>& pairs = list.pairs();
+    rows_ = pairs.size();
+    const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;
+    RowBlock empty{};
+    for (int k = 0; k < block_rows; ++k) empty.i[k] = grains, empty.j[k] = grains + 1;
+    refill(blocks_, blocks, empty);
+    refill(columns_, std::max<std::size_t>(1, blocks) * C::count, Line{});
+    refill(out_, std::max<std::size_t>(1, blocks * out_size(Y)), Line{});
+    for (std::size_t row = rows_; row < blocks * block_rows; ++row) at(row, C::reach) = -1e300;
+    images_.assign(1, Image<D>{});
+    for (std::size_t row = 0; row < rows_; ++row) {
+      RowBlock& block = block_of(row);
+      const int k = static_cast<int>(row % block_rows);
+      block.i[k] = pairs.i[row], block.j[k] = pairs.j[row];
+      if (pairs.j[row] >= grains) block.planes |= static_cast<std::uint8_t>(1u << k);
+      block.shift[k] = shift_of(pairs.image[row]);
+    }
+  }
+
+  std::uint16_t shift_of(const Image<D>& image) {
+    if (image == images_[0]) return 0;
+    // There are few: the neighbours of the cell, as a rule.
+    auto found = std::find(images_.begin() + 1, images_.end(), image);
+    if (found == images_.end()) {
+      if (images_.size() > 65535) throw RunError("the cell is too small: grains meet more than 65535 of its images");
+      images_.push_back(image);
+      found = images_.end() - 1;
+    }
+    return static_cast<std::uint16_t>(found - images_.begin());
+  }
+
+  std::size_t rows_ = 0;
+  std::vector<RowBlock> blocks_;
+  std::vector<Line> columns_, out_;
+  std::vector<Image<D>> images_ = std::vector<Image<D>>(1);
 };
 
 }  // namespace galet::md

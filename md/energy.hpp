@@ -4,15 +4,17 @@
 #pragma once
 
 #include "common/engine/bodies.hpp"
+#include "common/geometry/contact_frame.hpp"
 #include "md/contact_pass.hpp"
 #include "md/contacts.hpp"
+#include "md/pair_terms.hpp"
 
 namespace galet::md {
 
 /// The powers at one step.
 struct Powers {
   double work = 0;
-  Losses normal, sliding, rolling, pivoting;
+  Loss normal, sliding, rolling, pivoting;
   double relaxation = 0;
 };
 
@@ -41,7 +43,7 @@ class EnergyAccount {
                                  flows_.pivoting, flows_.relaxation, last_.work,     last_.relaxation};
     std::vector<double>& losses = archive.reals["md.losses"];
     losses.clear();
-    for (const Losses* part : {&last_.normal, &last_.sliding, &last_.rolling, &last_.pivoting})
+    for (const Loss* part : {&last_.normal, &last_.sliding, &last_.rolling, &last_.pivoting})
       losses.insert(losses.end(), {part->viscous, part->plastic, part->unloading});
   }
 
@@ -52,7 +54,7 @@ class EnergyAccount {
     flows_ = {flows[0], flows[1], flows[2], flows[3], flows[4], flows[5], flows[6]};
     last_.work = flows[7], last_.relaxation = flows[8];
     const double* from = losses.data();
-    for (Losses* part : {&last_.normal, &last_.sliding, &last_.rolling, &last_.pivoting}) {
+    for (Loss* part : {&last_.normal, &last_.sliding, &last_.rolling, &last_.pivoting}) {
       *part = {from[0], from[1], from[2]};
       from += 3;
     }
@@ -63,7 +65,7 @@ class EnergyAccount {
     const double half = 0.5 * dt;
     flows_.work += half * powers.work;
     flows_.relaxation += half * powers.relaxation;
-    for (const Losses* part : {&powers.normal, &powers.sliding, &powers.rolling, &powers.pivoting}) {
+    for (const Loss* part : {&powers.normal, &powers.sliding, &powers.rolling, &powers.pivoting}) {
       flows_.viscous += half * part->viscous;
       flows_.unloading += half * part->unloading;
     }
@@ -78,26 +80,27 @@ class EnergyAccount {
 
 /// Adds the energy that row `row` stores. Springs are known half a step ahead: their forces tell their present energy.
 template <Layout Y>
-void add_contact_energy(const Contacts<Y>& contacts, std::size_t row, const PairTerms& terms,
-                        const ContactFrame<Y.dim>& frame, EnergyParts& parts) {
+void add_contact_energy(const Contacts<Y>& contacts, std::size_t row, const LawKind& kind,
+                        const PairTerms<double>& terms, const ContactFrame<Y.dim>& frame, EnergyParts& parts) {
+  using C = RowColumns<Y>;
   if (!contacts.acts(row)) return;
-  const double coefficient = contacts.coefficient[row];
-  parts.cohesive += cohesive_energy(terms, coefficient, frame.gap);
+  const double coefficient = contacts.at(row, C::coefficient);
+  parts.cohesive += cohesive_energy(kind, terms, coefficient, frame.gap);
   if (!contacts.touches(row) || frame.gap >= 0) return;
-  parts.elastic_normal += elastic_energy(terms, coefficient, -frame.gap);
+  parts.elastic_normal += elastic_energy(kind, coefficient, -frame.gap);
   if constexpr (Y.friction) {
-    const double stiffness = contacts.varying_stiffness ? contacts.stiffness_before[row] : coefficient;
+    const double stiffness = kind.hertz ? contacts.at(row, C::stiffness) : coefficient;
     if (!(stiffness > 0)) return;
-    const Vec<Y.dim>& force = contacts.force[row];
     if (terms.tangential_viscosity > 0) {
       // The force holds a viscous part: the spring itself, half a step ahead, is the nearest there is.
-      parts.elastic_tangential += 0.5 * terms.tangential_ratio * stiffness * squared(contacts.spring[row]);
+      parts.elastic_tangential += 0.5 * terms.tangential_ratio * stiffness * squared(contacts.spring(row));
     } else {
+      const Vec<Y.dim> force = contacts.force(row);
       const Vec<Y.dim> tangential = force - force.dot(frame.normal) * frame.normal;
       parts.elastic_tangential += 0.5 * tangential.squaredNorm() / (terms.tangential_ratio * stiffness);
     }
     if constexpr (Y.rolling) {
-      const Spin<Y.dim>& torque = contacts.torque[row];
+      const Spin<Y.dim> torque = contacts.torque(row);
       double about = 0;
       if constexpr (Y.dim == 3) about = torque.dot(frame.normal);
       if (terms.rolling_stiffness > 0)

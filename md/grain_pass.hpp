@@ -72,10 +72,13 @@ void drift(Bodies<Y>& bodies, const Accelerations<Y>& acceleration, Acceleration
       else
         bodies.position[i] = deform * bodies.position[i] + step * half;
       bodies.velocity[i] = half;
-      seen.velocity[i] = half + 0.5 * dt * expected(acceleration.linear[i], before.linear[i]);
+      const int grain = static_cast<int>(i);
+      seen.grains.put_position(grain, bodies.position[i]);
+      seen.grains.put_velocity(grain, half + 0.5 * dt * expected(acceleration.linear[i], before.linear[i]));
       if constexpr (Y.friction) {
         bodies.spin[i] += 0.5 * dt * acceleration.angular[i];
-        seen.spin[i] = bodies.spin[i] + 0.5 * dt * expected(acceleration.angular[i], before.angular[i]);
+        const Spin<D> spin = bodies.spin[i] + 0.5 * dt * expected(acceleration.angular[i], before.angular[i]);
+        seen.grains.put_spin(grain, spin, bodies.radius[i]);
       }
     }
   });
@@ -94,16 +97,17 @@ void gather(Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<Y.dim>& lis
       Vec<D> force = Vec<D>::Zero();
       Spin<D> twist = zero_spin<D>(), torque = zero_spin<D>();
       for (int k = second[i]; k < second[i + 1]; ++k) {
-        force += contacts.force[rows_of_second[k]];
-        if constexpr (Y.friction) twist += contacts.twist[rows_of_second[k]];
-        if constexpr (Y.rolling) torque += contacts.torque[rows_of_second[k]];
+        force += contacts.force(rows_of_second[k]);
+        if constexpr (Y.friction) twist += contacts.twist(rows_of_second[k]);
+        if constexpr (Y.rolling) torque += contacts.torque(rows_of_second[k]);
       }
       for (int row = first[i]; row < first[i + 1]; ++row) {
-        force -= contacts.force[row];
-        if constexpr (Y.friction) twist += contacts.twist[row];
-        if constexpr (Y.rolling) torque -= contacts.torque[row];
+        force -= contacts.force(row);
+        if constexpr (Y.friction) twist += contacts.twist(row);
+        if constexpr (Y.rolling) torque -= contacts.torque(row);
       }
-      acceleration.linear[i] = force / bodies.mass[i] + bodies.gravity - seen.gradient * seen.velocity[i];
+      acceleration.linear[i] =
+          force / bodies.mass[i] + bodies.gravity - seen.gradient * seen.grains.velocity(static_cast<int>(i));
       bodies.velocity[i] += kick_dt * acceleration.linear[i];
       if constexpr (Y.friction) {
         acceleration.angular[i] = -bodies.radius[i] / bodies.inertia[i] * twist;
@@ -137,13 +141,13 @@ double relax(Bodies<Y>& bodies, const Seen<Y>& seen, const Relaxers& relaxers, A
   parallel_chunks(bodies.position.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     double power = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec<Y.dim> before = acceleration.linear[i], &velocity = seen.velocity[i];
+      const Vec<Y.dim> before = acceleration.linear[i], velocity = seen.grains.velocity(static_cast<int>(i));
       acceleration.linear[i] = relaxed(relaxers, before, velocity, before.dot(velocity));
       const Vec<Y.dim> change = acceleration.linear[i] - before;
       bodies.velocity[i] += kick_dt * change;
       power -= bodies.mass[i] * change.dot(velocity);
       if constexpr (Y.friction) {
-        const Spin<Y.dim> turn = acceleration.angular[i], &spin = seen.spin[i];
+        const Spin<Y.dim> turn = acceleration.angular[i], spin = seen.grains.spin(static_cast<int>(i));
         acceleration.angular[i] = relaxed(relaxers, turn, spin, dot(turn, spin));
         const Spin<Y.dim> turn_change = acceleration.angular[i] - turn;
         bodies.spin[i] += kick_dt * turn_change;

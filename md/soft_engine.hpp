@@ -24,6 +24,7 @@ template <Layout Y>
 class SoftEngine final : public Engine<Y.dim> {
  public:
   static constexpr int D = Y.dim;
+  using C = RowColumns<Y>;
 
   SoftEngine(const Scene& scene, const Derived& derived, const Sample<D>& sample)
       : materials_(derived.laws.materials),
@@ -31,17 +32,21 @@ class SoftEngine final : public Engine<Y.dim> {
         laws_(derived.laws.pairs),
         relaxers_{scene.md.drag, scene.md.acceleration_damping},
         account_(scene.md.energy_budget),
-        dt_(*derived.md_dt) {
+        kind_(kind_of(derived.laws.pairs[0])),
+        dt_(*derived.md_dt),
+        pass_(Kernel{scene.md.energy_budget || !plain(derived.laws.pairs), kind_.hertz, scene.md.energy_budget}) {
     for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
-    contacts_.varying_stiffness = carried_.varying_stiffness = laws_[0].normal_law == NormalLaw::hertz;
-    kernel_ = {account_ || !plain(), contacts_.varying_stiffness, account_};
-    if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && contacts_.varying_stiffness)
+    contacts_.varying_stiffness = carried_.varying_stiffness = kind_.hertz;
+    if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && kind_.hertz)
       stiffest_ = derived.md_stiffest * std::pow(*derived.md_dt_stable / dt_, 2);
     bodies_.start(scene, derived, sample);
     const std::size_t grains = bodies_.position.size();
-    seen_.velocity = bodies_.velocity;
     seen_.gradient = bodies_.cell.rate;
-    if constexpr (Y.friction) seen_.spin = bodies_.spin;
+    seen_.grains.resize(bodies_.grains());
+    for (int i = 0; i < bodies_.grains(); ++i) {
+      seen_.grains.put_velocity(i, bodies_.velocity[i]);
+      if constexpr (Y.friction) seen_.grains.put_spin(i, bodies_.spin[i], bodies_.radius[i]);
+    }
     acceleration_.linear.assign(grains, Vec<D>::Zero());
     if constexpr (Y.friction) acceleration_.angular.assign(grains, zero_spin<D>());
     acceleration_.modes.assign(bodies_.modes.size(), 0.0);
@@ -74,7 +79,7 @@ class SoftEngine final : public Engine<Y.dim> {
   EnergyParts energy() const override {
     EnergyParts parts = bodies_.energy();
     for (std::size_t row = 0; row < list_.size(); ++row)
-      add_contact_energy(contacts_, row, terms_[contacts_.law[row]], frame_of(row), parts);
+      add_contact_energy(contacts_, row, kind_, terms_[contacts_.law(row)], frame_of(row), parts);
     return parts;
   }
 
@@ -94,7 +99,7 @@ class SoftEngine final : public Engine<Y.dim> {
   void restore(const Archive& archive) override {
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
-    contacts_.restore(archive, list_.size());
+    contacts_.restore(archive, list_, bodies_.grains());
     set_row_constants();
     energy_account_.restore(archive);
     acceleration_.restore(archive, "md.acceleration");
@@ -105,7 +110,9 @@ class SoftEngine final : public Engine<Y.dim> {
 
  private:
   /// Whether the plain kernels have all the terms that the laws need.
-  bool plain() const { return laws_.size() == 1 && laws_[0].cohesion == 0 && laws_[0].tangential_damping_ratio == 0; }
+  static bool plain(const std::vector<PairLaw>& laws) {
+    return laws.size() == 1 && laws[0].cohesion == 0 && laws[0].tangential_damping_ratio == 0;
+  }
 
   void step() {
     {
@@ -124,11 +131,11 @@ class SoftEngine final : public Engine<Y.dim> {
 
   /// Forces, accelerations and the closing half kick. `dt`: time since the last evaluation, 0 at the start.
   void evaluate(double dt) {
-    const PassLaw law{terms_, range_, 0.5 * dt, 0.5 * dt_, kernel_};
+    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, bodies_.stress_driven() || account_};
     PassSums<D> sums;
     {
       StageTimer timer(profile_, Stage::contacts);
-      sums = pass_.run(bodies_, seen_, list_, law, contacts_);
+      sums = pass_.run(bodies_, seen_, law, contacts_);
       if (steps_ % 128 == 0) check_stiffness();
     }
     double relaxation = 0;
@@ -149,11 +156,11 @@ class SoftEngine final : public Engine<Y.dim> {
 
   /// Hertz contacts stiffen as they are pressed: beyond what the time step was derived for the run stops.
   void check_stiffness() const {
-    if (!contacts_.varying_stiffness || !(stiffest_ > 0)) return;
+    if (!kind_.hertz || !(stiffest_ > 0)) return;
     for (std::size_t row = 0; row < list_.size(); ++row) {
       if (!contacts_.touches(row)) continue;
       const double deflection = -frame_of(row).gap;
-      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.coefficient[row], deflection);
+      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.at(row, C::coefficient), deflection);
       if (!(stiffness > stiffest_)) continue;
       const PairColumns<D>& pairs = list_.pairs();
       throw RunError(
@@ -171,13 +178,13 @@ class SoftEngine final : public Engine<Y.dim> {
     Vec<D> sum = Vec<D>::Zero(), from_planes = Vec<D>::Zero();
     double scale = 1e-300;
     for (int i = 0; i < bodies_.grains(); ++i)
-      sum += bodies_.mass[i] * (acceleration_.linear[i] + seen_.gradient * seen_.velocity[i] - bodies_.gravity);
+      sum += bodies_.mass[i] * (acceleration_.linear[i] + seen_.gradient * seen_.grains.velocity(i) - bodies_.gravity);
     for (std::size_t row = 0; row < list_.size(); ++row) {
-      scale += contacts_.force[row].norm();
-      if (list_.pairs().j[row] >= bodies_.grains()) from_planes -= contacts_.force[row];
+      scale += contacts_.force(row).norm();
+      if (list_.pairs().j[row] >= bodies_.grains()) from_planes -= contacts_.force(row);
     }
     for (int i = 0; i < bodies_.grains(); ++i)
-      scale += bodies_.mass[i] * ((seen_.gradient * seen_.velocity[i]).norm() + bodies_.gravity.norm());
+      scale += bodies_.mass[i] * ((seen_.gradient * seen_.grains.velocity(i)).norm() + bodies_.gravity.norm());
     // Rounding of sums of this many terms; anything systematic is far above.
     return !((sum - from_planes).norm() > 1e-10 * scale);
   }
@@ -208,8 +215,10 @@ class SoftEngine final : public Engine<Y.dim> {
   void update_neighbours() {
     std::swap(contacts_, carried_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
-    contacts_.carry(carried_, list_);
+    contacts_.carry(carried_, list_, bodies_.grains());
     set_row_constants();
+    // Building wraps the grains into the cell.
+    for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
   }
 
   /// What the laws need of each row's two grains.
@@ -223,9 +232,12 @@ class SoftEngine final : public Engine<Y.dim> {
       const double curvature = plane ? radius : reduced_radius(radius, bodies_.radius[j]);
       const int other = plane ? bodies_.plane_material[j - grains] : bodies_.material[j];
       const int law = bodies_.material[i] * materials_ + other;
-      contacts_.law[row] = static_cast<std::uint8_t>(law);
-      contacts_.coefficient[row] = normal_coefficient(laws_[law], curvature);
-      contacts_.critical[row] = critical_damping(terms_[law], contacts_.coefficient[row], reduced_mass);
+      contacts_.block_of(row).law[row % block_rows] = static_cast<std::uint8_t>(law);
+      const double coefficient = normal_coefficient(laws_[law], curvature);
+      contacts_.at(row, C::reach) = plane ? radius : radius + bodies_.radius[j];
+      contacts_.at(row, C::coefficient) = coefficient;
+      contacts_.at(row, C::critical) = critical_damping(kind_, coefficient, reduced_mass);
+      if constexpr (Y.friction) contacts_.at(row, C::inverse_reach) = 1 / contacts_.at(row, C::reach);
     }
   }
 
@@ -249,8 +261,8 @@ class SoftEngine final : public Engine<Y.dim> {
       shown_.normal.push_back(frame.normal);
       shown_.branch.push_back(frame.branch);
       shown_.gap.push_back(frame.gap);
-      shown_.force.push_back(contacts_.force[row]);
-      if constexpr (Y.rolling) shown_.torque.push_back(contacts_.torque[row]);
+      shown_.force.push_back(contacts_.force(row));
+      if constexpr (Y.rolling) shown_.torque.push_back(contacts_.torque(row));
       if (range_ > 0) shown_.touching.push_back(contacts_.touches(row));
     }
   }
@@ -258,10 +270,10 @@ class SoftEngine final : public Engine<Y.dim> {
   int materials_;
   double range_;               ///< largest D0
   std::vector<PairLaw> laws_;  ///< by pair of materials
-  std::vector<PairTerms> terms_;
+  std::vector<PairTerms<double>> terms_;
   Relaxers relaxers_;
   bool account_;
-  Kernel kernel_;
+  LawKind kind_;
   double stiffest_ = 0;  ///< hertz: K_N that the time step allows; 0: any
   double dt_;
   long steps_ = 0;

@@ -50,7 +50,9 @@ inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return a.cross(b); }
 /// spin x b: the velocity at b of a body that turns with `spin`.
 inline Vec<2> cross(double spin, const Vec<2>& b) { return {-spin * b.y(), spin * b.x()}; }
 
-/// Squared norm of a spin, written alike for disks and spheres.
+/// Product of spins and squared norm, written alike for disks and spheres.
+inline double dot(double a, double b) { return a * b; }
+inline double dot(const Vec<3>& a, const Vec<3>& b) { return a.dot(b); }
 inline double squared(double spin) { return spin * spin; }
 inline double squared(const Vec<3>& spin) { return spin.squaredNorm(); }
 

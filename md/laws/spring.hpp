@@ -16,91 +16,114 @@
 // Source: chapter, eqs. linuni, mindlin, coulomb, visco, secs. lois, visq, Resistance au roulement.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include "common/core/inline.hpp"
-#include "common/geometry/contact_frame.hpp"
+#include "md/kernel/lanes.hpp"
 #include "md/laws/terms.hpp"
 
 namespace galet::md {
 
+template <class V>
 struct SpringTerms {
-  double stiffness;    ///< K now
-  double limit;        ///< largest norm of the force now
-  double limit_ahead;  ///< the same, expected half a step ahead
-  double softening;    ///< K half a step ahead over K now, where it falls; else 1
-  double viscosity;    ///< alpha
-  bool total;          ///< viscous convention
-  double half_before;  ///< dt_before / 2 (0 at the very start)
-  double half_after;   ///< dt_after / 2
+  V stiffness;    ///< K now
+  V limit;        ///< largest norm of the force now
+  V limit_ahead;  ///< the same, expected half a step ahead
+  V softening;    ///< K half a step ahead over K now, where it falls; else 1
+  V viscosity;    ///< alpha
+  bool total;     ///< viscous convention
+  V half_before;  ///< dt_before / 2 (0 at the very start)
+  V half_after;   ///< dt_after / 2
 };
 
-/// Power that a contact takes out of the motion, by channel.
+/// Power that contacts take out of the motion, by channel.
+template <class V>
 struct Losses {
-  double viscous = 0;
-  double plastic = 0;    ///< by the slider
-  double unloading = 0;  ///< by a change of K
+  V viscous{};
+  V plastic{};    ///< by the slider
+  V unloading{};  ///< by a change of K
 };
 
-inline double squared_norm(double value) { return value * value; }
-inline double squared_norm(const Vec<3>& value) { return value.squaredNorm(); }
-inline double norm(double value) { return std::abs(value); }
-inline double norm(const Vec<3>& value) { return value.norm(); }
-inline double dot(double a, double b) { return a * b; }
-inline double dot(const Vec<3>& a, const Vec<3>& b) { return a.dot(b); }
+template <class V>
+GALET_INLINE V norm(const V& value) {
+  return max(value, -value);
+}
+template <class V>
+GALET_INLINE V norm(const Space<V>& value) {
+  return sqrt(squared(value));
+}
 
-/// F; updates the stored elongation. `losses` is filled by kernels that account for energy.
-template <Kernel K, class Value>
-GALET_INLINE Value spring_force(const SpringTerms& law, const Value& rate, Value& stored, Losses& losses) {
-  const double k = law.stiffness, step = law.half_before + law.half_after;
-  const double bounded_viscosity = K.general && law.total ? law.viscosity : 0;
-  Value force = k * (stored + law.half_before * rate) + bounded_viscosity * rate;
-  if (squared_norm(force) <= law.limit * law.limit) {
-    stored += step * rate;
-    if (K.general && !law.total) force += law.viscosity * rate;
-    if (K.account) losses.viscous += law.viscosity * squared_norm(rate);
-    return force;
-  }
-  const Value before = stored;
-  const double inverse = 1 / k;
-  force *= law.limit / norm(force);
+/// What sliding makes of a trial force beyond the limit: the force, and the stored elongation. `length` of the result
+/// of no use where the spring sticks.
+template <class V, class Value>
+struct Slide {
+  Value force, stored;
+  V plastic, viscous;
+};
+
+template <Kernel K, class V, class Value>
+GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial, V trial_squared, const Value& rate,
+                                   const Value& stored, V bounded_viscosity) {
+  const V k = law.stiffness, step = law.half_before + law.half_after, inverse = V(1.0) / k;
+  Slide<V, Value> to;
+  to.force = law.limit / sqrt(trial_squared) * trial;
   // Where the limit has fallen by more than a third in one step the midpoint rule resolves nothing: the spring first
   // falls with it. (Not one with a dashpot in series with the slider: it outlives the limit for a while.)
-  const double longest = inverse * law.limit, length = norm(stored);
-  if (length > 1.5 * longest && bounded_viscosity == 0) stored *= longest / length;
-  const Value start = stored;
-  const double modulus = k * law.half_before + bounded_viscosity;
-  Value flow = 0 * rate;  // dq/dt
-  if (modulus > 0) {
-    flow = (force - k * stored) * (1 / modulus);
-    stored += step * flow;
-  } else {
-    stored = inverse * force;
-  }
-  const Value free = stored;
-  double most = inverse * law.limit_ahead;
+  const V longest = inverse * law.limit, length = norm(stored);
+  auto fallen = V(1.5) * longest < length;
+  if (K.general) fallen = without(fallen, V(0.0) < bounded_viscosity);
+  const Value start = select(fallen, longest / length * stored, stored);
+  const V modulus = k * law.half_before + bounded_viscosity;
+  const auto resolved = V(0.0) < modulus;                                        // not at the very start
+  const Value flow = only(resolved, V(1.0) / modulus * (to.force - k * start));  // dq/dt
+  const Value free = select(resolved, start + step * flow, inverse * to.force);
+  V most = inverse * law.limit_ahead;
   // While K falls elongations are kept: the one allowed is that of the softer spring.
-  if (K.general || K.hertz) most /= law.softening;
-  if (bounded_viscosity > 0) most = std::max(most, length);
-  // Not a branch: while a contact slides steadily the two lengths are nearly equal. (0 / 0 leaves the zero spring.)
-  const double shortening = most / norm(stored);
-  stored *= shortening < 1 ? shortening : 1.0;
+  if (K.general || K.hertz) most = most / law.softening;
+  if (K.general) most = select(V(0.0) < bounded_viscosity, max(most, length), most);
+  const V shortening = min(most / norm(free), V(1.0));  // 0 / 0 leaves the zero spring
+  to.stored = shortening * free;
   if (K.account) {
-    losses.viscous += bounded_viscosity * squared_norm(flow);
-    losses.plastic +=
-        dot(force, Value(rate - flow)) +
-        0.5 * k * (squared_norm(before) - squared_norm(start) + squared_norm(free) - squared_norm(stored)) / step;
+    to.viscous = bounded_viscosity * squared(flow);
+    to.plastic = dot(to.force, rate - flow) +
+                 V(0.5) * k * (squared(stored) - squared(start) + squared(free) - squared(to.stored)) / step;
   }
-  return force;
+  return to;
+}
+
+/// F of the touching pairs; updates the stored elongation (where not touching: to anything finite). `losses` is filled
+/// by kernels that account for energy.
+template <Kernel K, int W, class Value>
+GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& law, const Value& rate, Value& stored,
+                                Losses<Lanes<W>>& losses) {
+  using V = Lanes<W>;
+  const V k = law.stiffness, step = law.half_before + law.half_after;
+  const V bounded_viscosity = K.general && law.total ? law.viscosity : V(0.0);
+  Value force = k * (stored + law.half_before * rate);
+  if (K.general) force = force + bounded_viscosity * rate;
+  const V trial = squared(force);
+  const Mask<W> slides = touching & (law.limit * law.limit < trial);
+  const Value before = stored;
+  stored = stored + step * rate;
+  const Value sticking = K.general && !law.total ? force + law.viscosity * rate : force;
+  if (K.account) losses.viscous += only(without(touching, slides), law.viscosity * squared(rate));
+  if (!any(slides)) return sticking;
+  const Slide<V, Value> to = slide<K>(law, force, trial, rate, before, bounded_viscosity);
+  stored = select(slides, to.stored, stored);
+  if (K.account) losses.viscous += only(slides, to.viscous), losses.plastic += only(slides, to.plastic);
+  return select(slides, to.force, sticking);
 }
 
 /// Adapts the stored elongation to a stiffness that has changed since the last step.
-template <Kernel K, class Value>
-GALET_INLINE void adapt_spring(double stiffness_before, double stiffness, double step, Value& stored, Losses& losses) {
-  const double energy = K.account ? 0.5 * stiffness_before * squared_norm(stored) : 0;
-  if (stiffness > stiffness_before) stored *= stiffness_before / stiffness;
-  if (K.account) losses.unloading += (energy - 0.5 * stiffness * squared_norm(stored)) / step;
+template <Kernel K, class V, class Value>
+GALET_INLINE void adapt_spring(V stiffness_before, V stiffness, V step, Value& stored, Losses<V>& losses) {
+  const Value before = stored;
+  stored = select(stiffness_before < stiffness, stiffness_before / stiffness * stored, stored);
+  if (K.account) losses.unloading += V(0.5) * (stiffness_before * squared(before) - stiffness * squared(stored)) / step;
+}
+
+/// The smallest rotation that takes the unit normal `before` to `after`, applied to a vector of the tangent plane.
+template <class V>
+GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& before, const Space<V>& after) {
+  const Space<V> turned = value - dot(after, value) / (V(1.0) + dot(before, after)) * (before + after);
+  return turned - dot(after, turned) * after;  // keeps rounding from building up along the normal
 }
 
 /// Carries a vector of the tangent plane of `before` to that of `after` (unit normals), for a pair that turns by the
@@ -108,12 +131,14 @@ GALET_INLINE void adapt_spring(double stiffness_before, double stiffness, double
 /// other, then about the new normal by the angle psi with tan(psi/2) = tan(|turn|/2) turn.n/|turn|. A pair that turns
 /// rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for |turn| < 0.02; beyond that
 /// the error is 4e-4 |turn|^7).
-GALET_INLINE Vec<3> transport(const Vec<3>& value, const Vec<3>& before, const Vec<3>& after, const Vec<3>& turn) {
-  const Vec<3> moved = carried(value, before, after);
-  const double squared = turn.squaredNorm();
-  const double half = 0.5 * turn.dot(after) * (1 + squared / 12 * (1 + squared / 10));
-  const double scale = 1 / (1 + half * half);
-  return (1 - half * half) * scale * moved + 2 * half * scale * after.cross(moved);
+template <class V>
+GALET_INLINE Space<V> transport(const Space<V>& value, const Space<V>& before, const Space<V>& after,
+                                const Space<V>& turn) {
+  const Space<V> moved = carried(value, before, after);
+  const V turned = squared(turn);
+  const V half = V(0.5) * dot(turn, after) * (V(1.0) + V(1.0 / 12) * turned * (V(1.0) + V(0.1) * turned));
+  const V scale = V(1.0) / (V(1.0) + half * half);
+  return (V(1.0) - half * half) * scale * moved + V(2.0) * half * scale * cross(after, moved);
 }
 
 }  // namespace galet::md

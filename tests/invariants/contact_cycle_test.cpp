@@ -6,11 +6,18 @@
 #include "common/core/random.hpp"
 #include "md/laws/normal.hpp"
 #include "md/laws/spring.hpp"
+#include "md/pair_terms.hpp"
 
 namespace galet::md::test {
 namespace {
 
 constexpr Kernel kernel{true, false, true};
+
+// The engine's functions, one lane wide.
+using Lane = Lanes<1>;
+using LaneVector = Space<Lane>;
+LaneVector to_lanes(const Vec<3>& v) { return {v.x(), v.y(), v.z()}; }
+Vec<3> from_lanes(const LaneVector& v) { return {v.x.v, v.y.v, v.z.v}; }
 
 /// A point of a loading path: deflection and tangential displacement.
 struct Point {
@@ -24,6 +31,7 @@ struct Cycle {
   double friction;
 };
 
+constexpr double coefficient = 1e4;
 constexpr double depth = 1e-3;  // deflections are between a tenth of this and this
 
 Cycle random_cycle(std::uint64_t number) {
@@ -49,17 +57,18 @@ void walk(const Cycle& cycle, Visit visit) {
   }
 }
 
-PairTerms law_of(bool hertz) {
-  PairTerms law;
-  law.hertz = hertz;
+PairTerms<Lane> law_of() {
+  PairTerms<Lane> law;
   law.tangential_ratio = 0.8;
   return law;
 }
 
-constexpr double coefficient = 1e4;
+NormalForce<Lane> normal_force_of(bool hertz, double deflection) {
+  return normal_force<kernel, Lane>({hertz, false, false}, law_of(), coefficient, 0.0, deflection, 0.0);
+}
 
 /// Energy that a contact of h = delta = depth stores: the scale of the cycles' work.
-double scale(bool hertz) { return elastic_energy(law_of(hertz), coefficient, depth); }
+double scale(bool hertz) { return elastic_energy({hertz, false, false}, coefficient, depth); }
 
 /// Work done on the contact by the law of the engine over the cycle, and what is left in its spring.
 struct Balance {
@@ -67,40 +76,38 @@ struct Balance {
 };
 
 Balance around(const Cycle& cycle, bool hertz) {
-  const PairTerms law = law_of(hertz);
-  Vec<3> spring = Vec<3>::Zero();
+  LaneVector spring{0.0, 0.0, 0.0};
   Balance balance;
   double before = 0, stiffness = 0;
   const double dt = 0.01;
   walk(cycle, [&](double h, const Vec<3>& shear) {
-    const NormalForce normal = normal_force<kernel>(law, coefficient, 0, h, 0);
-    stiffness = law.tangential_ratio * normal.stiffness;
-    Losses losses;
-    if (before > 0 && hertz) adapt_spring<kernel>(before, stiffness, dt, spring, losses);
-    const double limit = cycle.friction * normal.bound;
-    const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 1, 0, false, dt / 2, dt / 2},
-                                              Vec<3>(shear / dt), spring, losses);
+    const NormalForce<Lane> normal = normal_force_of(hertz, h);
+    stiffness = (law_of().tangential_ratio * normal.stiffness).v;
+    Losses<Lane> losses;
+    if (before > 0 && hertz) adapt_spring<kernel, Lane>(before, stiffness, dt, spring, losses);
+    const double limit = cycle.friction * normal.bound.v;
+    const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 0.0, false, dt / 2, dt / 2};
+    const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, losses));
     EXPECT_LE(force.norm(), limit * (1 + 1e-12));
     balance.work += force.dot(shear);
-    balance.lost += dt * (losses.plastic + losses.unloading + losses.viscous);
-    EXPECT_GE(losses.plastic, -1e-12 * scale(hertz) / dt);
-    EXPECT_GE(losses.unloading, -1e-12 * scale(hertz) / dt);
+    balance.lost += dt * (losses.plastic + losses.unloading + losses.viscous).v;
+    EXPECT_GE(losses.plastic.v, -1e-12 * scale(hertz) / dt);
+    EXPECT_GE(losses.unloading.v, -1e-12 * scale(hertz) / dt);
     before = stiffness;
   });
-  balance.stored = 0.5 * stiffness * spring.squaredNorm();
+  balance.stored = 0.5 * stiffness * squared(spring).v;
   return balance;
 }
 
 /// The naive hertzian increment: dF = K_T(h) d(delta), F kept while h changes.
 double naive_work(const Cycle& cycle) {
-  const PairTerms law = law_of(true);
   Vec<3> force = Vec<3>::Zero();
   double work = 0;
   walk(cycle, [&](double h, const Vec<3>& shear) {
-    const NormalForce normal = normal_force<kernel>(law, coefficient, 0, h, 0);
+    const NormalForce<Lane> normal = normal_force_of(true, h);
     const Vec<3> start = force;
-    force += law.tangential_ratio * normal.stiffness * shear;
-    const double limit = cycle.friction * normal.bound;
+    force += (law_of().tangential_ratio * normal.stiffness).v * shear;
+    const double limit = cycle.friction * normal.bound.v;
     if (force.norm() > limit) force *= limit / force.norm();
     work += 0.5 * (start + force).dot(shear);
   });
@@ -143,21 +150,21 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
     for (int k = 0; k < 2000; ++k) {
       const Cycle cycle = random_cycle(k);
       const double stiffness = 8000, dt = 0.01, limit = cycle.friction * coefficient * depth;
-      Vec<3> spring = Vec<3>::Zero();
+      LaneVector spring{0.0, 0.0, 0.0};
       double work = 0, lost = 0;
       walk(cycle, [&](double, const Vec<3>& shear) {
-        Losses losses;
-        const Vec<3> force = spring_force<kernel>(SpringTerms{stiffness, limit, limit, 1, 30, total, dt / 2, dt / 2},
-                                                  Vec<3>(shear / dt), spring, losses);
+        Losses<Lane> losses;
+        const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 30.0, total, dt / 2, dt / 2};
+        const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, losses));
         if (total) {
           EXPECT_LE(force.norm(), limit * (1 + 1e-12));
         }
         work += force.dot(shear);
-        lost += dt * (losses.plastic + losses.viscous);
-        EXPECT_GE(losses.plastic, -1e-12 * scale(false) / dt);
-        EXPECT_GE(losses.viscous, 0);
+        lost += dt * (losses.plastic + losses.viscous).v;
+        EXPECT_GE(losses.plastic.v, -1e-12 * scale(false) / dt);
+        EXPECT_GE(losses.viscous.v, 0);
       });
-      ASSERT_NEAR(work, lost + 0.5 * stiffness * spring.squaredNorm(), 1e-11 * (scale(false) + work)) << "cycle " << k;
+      ASSERT_NEAR(work, lost + 0.5 * stiffness * squared(spring).v, 1e-11 * (scale(false) + work)) << "cycle " << k;
     }
 }
 
@@ -175,7 +182,7 @@ TEST(ContactRotation, KeepsForceInTheMovingFrame) {
       const double norm = turn.norm();
       frame = (Eigen::Quaterniond(Eigen::AngleAxisd(norm, turn / norm)) * frame).normalized();
       const Vec<3> next = frame * normal_at_start;
-      force = transport(force, normal, next, turn);
+      force = from_lanes(transport(to_lanes(force), to_lanes(normal), to_lanes(next), to_lanes(turn)));
       normal = next;
     }
     // Rounding of 1e5 steps adds up like a random walk: 300 times 2e-16, and a margin of ten in each of both sides.

@@ -1,0 +1,263 @@
+// The contact laws applied to W rows: second stage of the contact pass.
+#pragma once
+
+#include "md/kernel/geometry.hpp"
+#include "md/laws/normal.hpp"
+#include "md/laws/spring.hpp"
+
+namespace galet::md {
+
+/// Adds W values to eight lanes of a sum.
+template <int W>
+GALET_INLINE void add_lanes(double* sum, int lane, Lanes<W> value) {
+  (Lanes<W>::load(sum + lane) + value).store(sum + lane);
+}
+
+GALET_INLINE void write_out(double* out, const Plane2<Lanes<1>>& force) { force.x.store(out), force.y.store(out + 1); }
+GALET_INLINE void write_out(double* out, Lanes<1> a, Lanes<1> b, Lanes<1> c, Lanes<1> d, int) {
+  a.store(out), b.store(out + 1), c.store(out + 2), d.store(out + 3);
+}
+#ifdef __AVX2__
+GALET_INLINE void write_out(double* out, const Plane2<Lanes<4>>& force) {
+  const __m256d low = _mm256_unpacklo_pd(force.x.v, force.y.v), high = _mm256_unpackhi_pd(force.x.v, force.y.v);
+  _mm256_store_pd(out, _mm256_permute2f128_pd(low, high, 0x20));
+  _mm256_store_pd(out + 4, _mm256_permute2f128_pd(low, high, 0x31));
+}
+/// Four components of four rows, `size` doubles apart.
+GALET_INLINE void write_out(double* out, Lanes<4> a, Lanes<4> b, Lanes<4> c, Lanes<4> d, int size) {
+  transpose(a, b, c, d);
+  a.store(out), b.store(out + size), c.store(out + 2 * size), d.store(out + 3 * size);
+}
+#endif
+
+/// The constants of the pairs of W rows.
+template <int W>
+GALET_INLINE PairTerms<Lanes<W>> terms_of_rows(const PassView& view, const RowBlock& block, int lane) {
+  alignas(64) double gathered[pair_term_count][W];
+  for (int k = 0; k < W; ++k) {
+    const double* from = reinterpret_cast<const double*>(view.terms + block.law[lane + k]);
+    for (int term = 0; term < pair_term_count; ++term) gathered[term][k] = from[term];
+  }
+  const auto take = [&](int term) { return Lanes<W>::load(gathered[term]); };
+  return {take(0), take(1), take(2), take(3), take(4), take(5), take(6), take(7), take(8), take(9)};
+}
+template <int W>
+GALET_INLINE PairTerms<Lanes<W>> same_terms(const PairTerms<double>& terms) {
+  using V = Lanes<W>;
+  return {V(terms.damping),           V(terms.friction),
+          V(terms.tangential_ratio),  V(terms.tangential_viscosity),
+          V(terms.cohesion),          V(terms.range),
+          V(terms.rolling_friction),  V(terms.pivoting_friction),
+          V(terms.rolling_stiffness), V(terms.pivoting_stiffness)};
+}
+
+template <Layout Y, Kernel K, int W>
+class Rows {
+ public:
+  using V = Lanes<W>;
+  using M = Mask<W>;
+  using Vector = typename LaneTypes<Y, V>::Vector;
+  using Spin = typename LaneTypes<Y, V>::Spin;
+  using C = RowColumns<Y>;
+
+  GALET_INLINE Rows(const PassView& view, LaneSums& sums)
+      : view_(view),
+        sums_(sums),
+        half_before_(view.half_before),
+        half_after_(view.half_after),
+        common_(same_terms<W>(view.terms[0])) {}
+
+  /// The W rows from `lane` on of a block.
+  GALET_INLINE void evaluate(const Geometry<Y, W>& at, std::size_t index, int lane) {
+    RowBlock& block = view_.blocks[index];
+    double* columns = view_.columns + (index * C::count) * block_rows + lane;
+    double* out = view_.out + (index * block_rows + lane) * out_size(Y);
+    const PairTerms<V> terms = K.general && view_.laws > 1 ? terms_of_rows<W>(view_, block, lane) : common_;
+    const V deflection = V::load(columns + C::reach * block_rows) - at.distance;
+    const M touching = V(0.0) < deflection;
+    const V depth = max(deflection, V(0.0)), opening = dot(at.normal, at.centres);
+    const V coefficient = V::load(columns + C::coefficient * block_rows);
+    const V critical = V::load(columns + C::critical * block_rows);
+    const NormalForce<V> normal = normal_force<K>(view_.kind, terms, coefficient, critical, depth, opening);
+    V along = only(touching, normal.force);
+    note_states(block, lane, touching, &RowBlock::touching);
+    if (K.general && view_.range > 0) {
+      const M attracted = without((V(0.0) - deflection) < terms.range, touching);
+      along = select(attracted, distant_force(terms, V(0.0) - deflection), along);
+      note_states(block, lane, attracted, &RowBlock::attracted);
+    }
+    if constexpr (K.account) {
+      // The conservative part is what is left without damping.
+      const V conservative = normal_force<K>(view_.kind, terms, coefficient, V(0.0), depth, V(0.0)).force;
+      add_lanes(sums_.normal_viscous, lane, only(touching, (conservative - normal.force) * opening));
+    }
+    Vector force = along * at.normal;
+    if constexpr (Y.friction) {
+      const Ahead ahead = look_ahead(normal, depth, opening);
+      const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
+      Spin torque{};
+      if constexpr (Y.rolling) torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before);
+      const V stretch = at.distance * V::load(columns + C::inverse_reach * block_rows);
+      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, opening, stretch, force, torque, out);
+      if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
+      if constexpr (Y.dim == 3) store(only(touching, at.normal), columns + C::normal * block_rows);
+    } else if constexpr (Y.dim == 2) {
+      write_out(out, force);
+    } else {
+      write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
+    }
+    if (view_.virial) add_virial(force, at.distance * at.normal, lane);
+  }
+
+ private:
+  /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
+  struct Ahead {
+    V bound, softening;
+  };
+
+  GALET_INLINE bool varying() const { return K.general ? view_.kind.hertz : K.hertz; }
+
+  GALET_INLINE static void note_states(RowBlock& block, int lane, M mask, std::uint8_t RowBlock::*state) {
+    const unsigned kept = (1u << lane) - 1;  // rows come in ascending order
+    block.*state = static_cast<std::uint8_t>((block.*state & kept) | bits(mask) << lane);
+  }
+
+  GALET_INLINE Ahead look_ahead(const NormalForce<V>& normal, V depth, V opening) const {
+    const V moved = opening * half_after_;
+    Ahead ahead{max(normal.bound - normal.stiffness * moved, V(0.0)), V(1.0)};
+    if (varying()) ahead.softening = select(V(0.0) < opening, sqrt(max(V(1.0) - moved / depth, V(0.01))), V(1.0));
+    return ahead;
+  }
+
+  GALET_INLINE static V load(const double* column, V) { return V::load(column); }
+  GALET_INLINE static Space<V> load(const double* column, const Space<V>&) {
+    return {V::load(column), V::load(column + block_rows), V::load(column + 2 * block_rows)};
+  }
+  GALET_INLINE static void store(V value, double* column) { value.store(column); }
+  GALET_INLINE static void store(const Space<V>& value, double* column) {
+    value.x.store(column), value.y.store(column + block_rows), value.z.store(column + 2 * block_rows);
+  }
+
+  /// A spring of the row's columns, brought from the last step's frame and stiffness to the present ones.
+  template <class Value>
+  GALET_INLINE Value carried_spring(const double* column, const Geometry<Y, W>& at, const double* columns, V factor,
+                                    V stiffness_before, const NormalForce<V>& normal, Losses<V>& losses) const {
+    Value spring = load(column, Value{});
+    if constexpr (Y.dim == 3 && sizeof(Value) == sizeof(Space<V>)) {
+      const Space<V> before = load(columns + C::normal * block_rows, Space<V>{});
+      spring = transport(spring, before, at.normal, half_before_ * at.together);
+    }
+    if (varying())
+      adapt_spring<K>(factor * stiffness_before, factor * normal.stiffness, half_before_ + half_after_, spring, losses);
+    return spring;
+  }
+
+  /// The springs of rows that part are given up; returns the elongation to store.
+  template <class Value>
+  GALET_INLINE Value kept(M touching, const Value& before, const Value& after, V stiffness, Losses<V>& losses) const {
+    if constexpr (K.account)
+      losses.plastic += select(touching, V(0.0), V(0.5) * stiffness * squared(before) / (half_before_ + half_after_));
+    return only(touching, after);
+  }
+
+  GALET_INLINE void note_losses(M touching, const Losses<V>& losses, double (*sums)[block_rows], int lane) const {
+    add_lanes(sums[0], lane, only(touching, losses.viscous));
+    add_lanes(sums[1], lane, losses.plastic);
+    add_lanes(sums[2], lane, only(touching, losses.unloading));
+  }
+
+  /// One spring from load to store; returns its force.
+  template <class Value>
+  GALET_INLINE Value spring(double* column, const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
+                            const double* columns, M touching, V stiffness_before, V factor, V reach, V viscosity,
+                            bool total, const Value& rate, double (*sums)[block_rows], int lane) {
+    Losses<V> losses;
+    const Value before = load(column, Value{});
+    Value elongation = carried_spring<Value>(column, at, columns, factor, stiffness_before, normal, losses);
+    const SpringTerms<V> law{factor * normal.stiffness,
+                             reach * normal.bound,
+                             reach * ahead.bound,
+                             ahead.softening,
+                             viscosity,
+                             total,
+                             half_before_,
+                             half_after_};
+    Losses<V> sliding;
+    const Value force = spring_force<K>(touching, law, rate, elongation, sliding);
+    if constexpr (K.account) {
+      losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
+      const V stiffness = varying() ? stiffness_before : normal.stiffness;
+      elongation = kept(touching, before, elongation, factor * stiffness, losses);
+      note_losses(touching, losses, sums, lane);
+    } else {
+      elongation = only(touching, elongation);
+    }
+    store(elongation, column);
+    return only(touching, force);
+  }
+
+  GALET_INLINE void slide(const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
+                          const PairTerms<V>& terms, double* columns, int lane, M touching, V stiffness_before,
+                          V opening, V stretch, Vector& force, const Spin& torque, double* out) {
+    double* column = columns + C::spring * block_rows;
+    const V viscosity = terms.tangential_viscosity * normal.critical;
+    if constexpr (Y.dim == 2) {
+      const Plane2<V> tangent{-at.normal.y, at.normal.x};
+      const V rate = dot(tangent, at.centres) - stretch * at.surface;
+      const V tangential =
+          -spring<V>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
+                     terms.friction, viscosity, view_.kind.total, rate, sums_.sliding, lane);
+      force = force + tangential * tangent;
+      write_out(out, force.x, force.y, stretch * tangential, torque, out_size(Y));
+    } else {
+      const Space<V> rate = at.centres - opening * at.normal - stretch * cross(at.surface, at.normal);
+      const Space<V> tangential = V(-1.0) * spring<Space<V>>(column, at, normal, ahead, columns, touching,
+                                                             stiffness_before, terms.tangential_ratio, terms.friction,
+                                                             viscosity, view_.kind.total, rate, sums_.sliding, lane);
+      force = force + tangential;
+      const Space<V> twist = stretch * cross(at.normal, tangential);
+      write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
+      write_out(out + 4, twist.x, twist.y, twist.z, V(0.0), out_size(Y));
+      if constexpr (Y.rolling) write_out(out + 8, torque.x, torque.y, torque.z, V(0.0), out_size(Y));
+    }
+  }
+
+  /// Rolling and pivoting torque on j, from the relative rotation w_j - w_i.
+  GALET_INLINE Spin roll(const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
+                         const PairTerms<V>& terms, double* columns, int lane, M touching, V stiffness_before) {
+    double* column = columns + C::rolling * block_rows;
+    const M rolls = touching & (V(0.0) < terms.rolling_friction);
+    if constexpr (Y.dim == 2) {
+      return -spring<V>(column, at, normal, ahead, columns, rolls, stiffness_before, terms.rolling_stiffness,
+                        terms.rolling_friction, V(0.0), false, at.relative, sums_.rolling, lane);
+    } else {
+      const V about = dot(at.relative, at.normal);
+      const Space<V> rolling =
+          spring<Space<V>>(column, at, normal, ahead, columns, rolls, stiffness_before, terms.rolling_stiffness,
+                           terms.rolling_friction, V(0.0), false, at.relative - about * at.normal, sums_.rolling, lane);
+      const M pivots = touching & (V(0.0) < terms.pivoting_friction);
+      const V pivoting =
+          spring<V>(columns + C::pivoting * block_rows, at, normal, ahead, columns, pivots, stiffness_before,
+                    terms.pivoting_stiffness, terms.pivoting_friction, V(0.0), false, about, sums_.pivoting, lane);
+      return V(-1.0) * (rolling + pivoting * at.normal);
+    }
+  }
+
+  GALET_INLINE void add_virial(const Plane2<V>& force, const Plane2<V>& branch, int lane) {
+    const V f[2] = {force.x, force.y}, b[2] = {branch.x, branch.y};
+    for (int a = 0; a < 2; ++a)
+      for (int c = 0; c < 2; ++c) add_lanes(sums_.virial[2 * a + c], lane, f[a] * b[c]);
+  }
+  GALET_INLINE void add_virial(const Space<V>& force, const Space<V>& branch, int lane) {
+    const V f[3] = {force.x, force.y, force.z}, b[3] = {branch.x, branch.y, branch.z};
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 3; ++c) add_lanes(sums_.virial[3 * a + c], lane, f[a] * b[c]);
+  }
+
+  const PassView& view_;
+  LaneSums& sums_;
+  V half_before_, half_after_;
+  PairTerms<V> common_;
+};
+
+}  // namespace galet::md
