@@ -175,6 +175,7 @@ class Contacts {
     refill(columns_, std::max<std::size_t>(1, blocks) * C::count, Line{});
     refill(out_, std::max<std::size_t>(1, blocks * out_size(Y)), Line{});
     for (std::size_t row = rows_; row < blocks * block_rows; ++row) at(row, C::reach) = -1e300;
+    images_.reserve(128);  // more than a usual cell has: no growth in the middle of a run
     images_.assign(1, Image<D>{});
     for (std::size_t row = 0; row < rows_; ++row) {
       RowBlock& block = block_of(row);

@@ -17,6 +17,7 @@
 #include "md/contacts.hpp"
 #include "md/energy.hpp"
 #include "md/grain_pass.hpp"
+#include "md/skin.hpp"
 
 namespace galet::md {
 
@@ -33,6 +34,7 @@ class SoftEngine final : public Engine<Y.dim> {
         relaxers_{scene.md.drag, scene.md.acceleration_damping},
         account_(scene.md.energy_budget),
         kind_(kind_of(derived.laws.pairs[0])),
+        skin_(derived.grains.mean_diameter),
         dt_(*derived.md_dt),
         pass_(Kernel{scene.md.energy_budget || !plain(derived.laws.pairs), kind_.hertz, scene.md.energy_budget}) {
     for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
@@ -50,7 +52,7 @@ class SoftEngine final : public Engine<Y.dim> {
     acceleration_.linear.assign(grains, Vec<D>::Zero());
     if constexpr (Y.friction) acceleration_.angular.assign(grains, zero_spin<D>());
     acceleration_.modes.assign(bodies_.modes.size(), 0.0);
-    list_.configure(range_, 0.15 * derived.grains.mean_diameter);
+    list_.configure(range_, skin_.first());
     update_neighbours();
     evaluate(0);
     before_ = acceleration_;
@@ -94,6 +96,7 @@ class SoftEngine final : public Engine<Y.dim> {
     energy_account_.save(archive);
     archive.reals["md.dt"] = {dt_};
     archive.integers["steps"] = {steps_};
+    archive.integers["md.list_age"] = {list_age_};
   }
 
   void restore(const Archive& archive) override {
@@ -106,6 +109,7 @@ class SoftEngine final : public Engine<Y.dim> {
     before_.restore(archive, "md.acceleration_before");
     dt_ = real_column(archive, "md.dt").at(0);
     steps_ = integer_column(archive, "steps").at(0);
+    list_age_ = integer_column(archive, "md.list_age").at(0);
   }
 
  private:
@@ -123,7 +127,9 @@ class SoftEngine final : public Engine<Y.dim> {
     }
     {
       StageTimer timer(profile_, Stage::neighbours);
-      if (list_.expired(bodies_.position, bodies_.cell, bodies_.planes)) update_neighbours();
+      ++list_age_;
+      if (skin_.too_wide(list_.skin(), list_age_) || list_.expired(bodies_.position, bodies_.cell, bodies_.planes))
+        update_neighbours();
     }
     evaluate(dt_);
     ++steps_;
@@ -213,6 +219,13 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
   void update_neighbours() {
+    if (list_.builds() > 0) {
+      long touching = 0;
+      for (std::size_t row = 0; row < list_.size(); ++row) touching += contacts_.touches(row);
+      const double idle = static_cast<double>(static_cast<long>(list_.size()) - touching) / bodies_.grains();
+      list_.configure(range_, skin_.next(list_.skin(), list_age_, idle));
+    }
+    list_age_ = 0;
     std::swap(contacts_, carried_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
     contacts_.carry(carried_, list_, bodies_.grains());
@@ -275,8 +288,10 @@ class SoftEngine final : public Engine<Y.dim> {
   bool account_;
   LawKind kind_;
   double stiffest_ = 0;  ///< hertz: K_N that the time step allows; 0: any
+  Skin skin_;
   double dt_;
   long steps_ = 0;
+  long list_age_ = 0;  ///< steps since the neighbour list was built
 
   Bodies<Y> bodies_;
   Seen<Y> seen_;

@@ -26,9 +26,9 @@ template <Layout Y, int W>
 }
 
 template <Layout Y, int W>
-GALET_INLINE Geometry<Y, W> geometry_of(const PassView& view, std::size_t index, int lane) {
+GALET_INLINE Geometry<Y, W> geometry_of(const PassView& view, const PassView& shared, std::size_t index, int lane) {
   const RowBlock& block = view.blocks[index];
-  if (__builtin_expect(block.planes != 0, 0)) return mixed_geometry<Y, W>(view, block, lane);
+  if (__builtin_expect(block.planes != 0, 0)) return mixed_geometry<Y, W>(shared, block, lane);
   return grain_geometry<Y, W>(view, block, lane);
 }
 
@@ -46,15 +46,17 @@ GALET_INLINE void add_plane_power(const PassView& view, std::size_t index, LaneS
 
 /// The geometry of the next rows is found while the law of the present ones is applied: neither waits for the other.
 template <Layout Y, Kernel K, int W>
-void evaluate_blocks(const PassView& view, std::size_t begin, std::size_t end, LaneSums& sums) {
+void evaluate_blocks(const PassView& given, std::size_t begin, std::size_t end, LaneSums& sums) {
   if (begin == end) return;
+  const PassView view = given;  // a copy that nothing else can change: it stays in registers
   Rows<Y, K, W> rows(view, sums);
   constexpr int parts = block_rows / W;
   const std::size_t first = begin * parts, last = end * parts;
-  Geometry<Y, W> now = geometry_of<Y, W>(view, begin, 0);
+  Geometry<Y, W> now = geometry_of<Y, W>(view, given, begin, 0);
   for (std::size_t part = first; part < last; ++part) {
     const std::size_t following = part + 1 < last ? part + 1 : part;
-    const Geometry<Y, W> next = geometry_of<Y, W>(view, following / parts, static_cast<int>(following % parts) * W);
+    const Geometry<Y, W> next =
+        geometry_of<Y, W>(view, given, following / parts, static_cast<int>(following % parts) * W);
     rows.evaluate(now, part / parts, static_cast<int>(part % parts) * W);
     now = next;
   }

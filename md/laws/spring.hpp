@@ -119,26 +119,25 @@ GALET_INLINE void adapt_spring(V stiffness_before, V stiffness, V step, Value& s
   if (K.account) losses.unloading += V(0.5) * (stiffness_before * squared(before) - stiffness * squared(stored)) / step;
 }
 
-/// The smallest rotation that takes the unit normal `before` to `after`, applied to a vector of the tangent plane.
+/// The smallest rotation that takes the unit normal `before` to `after`, applied to a vector of the tangent plane. (The
+/// result has no part along `after`, whatever rounding has put into `value` along `before`.)
 template <class V>
 GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& before, const Space<V>& after) {
-  const Space<V> turned = value - dot(after, value) / (V(1.0) + dot(before, after)) * (before + after);
-  return turned - dot(after, turned) * after;  // keeps rounding from building up along the normal
+  return value - dot(after, value) / (V(1.0) + dot(before, after)) * (before + after);
 }
 
 /// Carries a vector of the tangent plane of `before` to that of `after` (unit normals), for a pair that turns by the
 /// rotation vector `turn` (mean spin of the two grains times dt): by the smallest rotation that takes one normal to the
-/// other, then about the new normal by the angle psi with tan(psi/2) = tan(|turn|/2) turn.n/|turn|. A pair that turns
-/// rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for |turn| < 0.02; beyond that
-/// the error is 4e-4 |turn|^7).
+/// other, then about the new normal by the angle psi with t = tan(psi/2) = tan(|turn|/2) turn.n/|turn|. A pair that
+/// turns rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for |turn| < 0.02; beyond
+/// that the error is 4e-4 |turn|^7).
 template <class V>
 GALET_INLINE Space<V> transport(const Space<V>& value, const Space<V>& before, const Space<V>& after,
                                 const Space<V>& turn) {
   const Space<V> moved = carried(value, before, after);
   const V turned = squared(turn);
-  const V half = V(0.5) * dot(turn, after) * (V(1.0) + V(1.0 / 12) * turned * (V(1.0) + V(0.1) * turned));
-  const V scale = V(1.0) / (V(1.0) + half * half);
-  return (V(1.0) - half * half) * scale * moved + V(2.0) * half * scale * cross(after, moved);
+  const V t = V(0.5) * dot(turn, after) * (V(1.0) + V(1.0 / 12) * turned * (V(1.0) + V(0.1) * turned));
+  return moved + V(2.0) * t / (V(1.0) + t * t) * (cross(after, moved) - t * moved);
 }
 
 }  // namespace galet::md
