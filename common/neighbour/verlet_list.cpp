@@ -169,7 +169,7 @@ void VerletList<D>::fill_bins(std::span<const Vec<D>> position, const Cell<D>& c
   }
   std::partial_sum(bin_start_.begin(), bin_start_.end(), bin_start_.begin());
   bin_grains_.resize(position.size());
-  bin_cursor_.assign(bin_start_.begin(), bin_start_.end() - 1);
+  copy_with_room(bin_start_, bin_cursor_);
   for (std::size_t i = 0; i < position.size(); ++i) bin_grains_[bin_cursor_[bin_of_[i]]++] = static_cast<int>(i);
 }
 
