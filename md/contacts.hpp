@@ -89,6 +89,9 @@ class Contacts {
     }
   }
 
+  /// Rows of each grain, see GrainView.
+  const int* slots() const { return slots_.data(); }
+
   /// Lattice coordinates of the images that rows refer to, in the order of their `shift`.
   const std::vector<Image<D>>& images() const { return images_; }
 
@@ -173,7 +176,7 @@ class Contacts {
     for (int k = 0; k < block_rows; ++k) empty.i[k] = grains, empty.j[k] = grains + 1;
     refill(blocks_, blocks, empty);
     refill(columns_, std::max<std::size_t>(1, blocks) * C::count, Line{});
-    refill(out_, std::max<std::size_t>(1, blocks * out_size(Y)), Line{});
+    refill(out_, (blocks + 1) * out_size(Y), Line{});  // the last block's rows stay zero
     for (std::size_t row = rows_; row < blocks * block_rows; ++row) at(row, C::reach) = -1e300;
     images_.reserve(128);  // more than a usual cell has: no growth in the middle of a run
     images_.assign(1, Image<D>{});
@@ -183,6 +186,17 @@ class Contacts {
       block.i[k] = pairs.i[row], block.j[k] = pairs.j[row];
       if (pairs.j[row] >= grains) block.planes |= static_cast<std::uint8_t>(1u << k);
       block.shift[k] = shift_of(pairs.image[row]);
+    }
+    fill_slots(list, grains, static_cast<int>(blocks * block_rows));
+  }
+
+  void fill_slots(const VerletList<D>& list, int grains, int zero_row) {
+    refill(slots_, 8 * static_cast<std::size_t>(grains), zero_row);
+    const auto first = list.first(), second = list.second(), rows_of_second = list.rows_of_second();
+    for (int i = 0; i < grains; ++i) {
+      int* slot = slots_.data() + 8 * static_cast<std::size_t>(i);
+      for (int k = 0; k < 4 && second[i] + k < second[i + 1]; ++k) slot[k] = rows_of_second[second[i] + k];
+      for (int k = 0; k < 4 && first[i] + k < first[i + 1]; ++k) slot[4 + k] = first[i] + k;
     }
   }
 
@@ -201,6 +215,7 @@ class Contacts {
   std::size_t rows_ = 0;
   std::vector<RowBlock> blocks_;
   std::vector<Line> columns_, out_;
+  std::vector<int> slots_;
   std::vector<Image<D>> images_ = std::vector<Image<D>>(1);
 };
 

@@ -21,6 +21,7 @@ class GrainRecords {
     put_position(grains + 1, Vec<D>(Vec<D>::UnitX()));
   }
 
+  double* data() { return lines_.data()->value; }
   const double* data() const { return lines_.data()->value; }
 
   void put_position(int i, const Vec<D>& position) {

@@ -36,26 +36,26 @@ class SoftEngine final : public Engine<Y.dim> {
         kind_(kind_of(derived.laws.pairs[0])),
         skin_(derived.grains.mean_diameter),
         dt_(*derived.md_dt),
-        pass_(Kernel{scene.md.energy_budget || !plain(derived.laws.pairs), kind_.hertz, scene.md.energy_budget}) {
+        pass_(Kernel{scene.md.energy_budget || !plain(derived.laws.pairs), kind_.hertz, scene.md.energy_budget}),
+        grain_pass_(pass_.instructions()) {
     for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
     contacts_.varying_stiffness = carried_.varying_stiffness = kind_.hertz;
     if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && kind_.hertz)
       stiffest_ = derived.md_stiffest * std::pow(*derived.md_dt_stable / dt_, 2);
     bodies_.start(scene, derived, sample);
-    const std::size_t grains = bodies_.position.size();
     seen_.gradient = bodies_.cell.rate;
     seen_.grains.resize(bodies_.grains());
     for (int i = 0; i < bodies_.grains(); ++i) {
       seen_.grains.put_velocity(i, bodies_.velocity[i]);
       if constexpr (Y.friction) seen_.grains.put_spin(i, bodies_.spin[i], bodies_.radius[i]);
     }
-    acceleration_.linear.assign(grains, Vec<D>::Zero());
-    if constexpr (Y.friction) acceleration_.angular.assign(grains, zero_spin<D>());
-    acceleration_.modes.assign(bodies_.modes.size(), 0.0);
+    states_.take(bodies_);
+    mode_acceleration_.assign(bodies_.modes.size(), 0.0);
     list_.configure(range_, skin_.first());
     update_neighbours();
     evaluate(0);
-    before_ = acceleration_;
+    states_.forget_before(bodies_.grains());
+    mode_before_ = mode_acceleration_;
   }
 
   std::string_view name() const override { return "md"; }
@@ -67,6 +67,7 @@ class SoftEngine final : public Engine<Y.dim> {
 
   void advance(long count) override {
     for (long k = 0; k < count; ++k) step();
+    states_.give(bodies_);
   }
 
   Snapshot<D> snapshot() override {
@@ -91,8 +92,9 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.save(archive);
     list_.save(archive);
     contacts_.save(archive);
-    acceleration_.save(archive, "md.acceleration");
-    before_.save(archive, "md.acceleration_before");
+    states_.save(archive, bodies_.grains());
+    archive.reals["md.acceleration.modes"] = mode_acceleration_;
+    archive.reals["md.acceleration_before.modes"] = mode_before_;
     energy_account_.save(archive);
     archive.reals["md.dt"] = {dt_};
     archive.integers["steps"] = {steps_};
@@ -105,8 +107,9 @@ class SoftEngine final : public Engine<Y.dim> {
     contacts_.restore(archive, list_, bodies_.grains());
     set_row_constants();
     energy_account_.restore(archive);
-    acceleration_.restore(archive, "md.acceleration");
-    before_.restore(archive, "md.acceleration_before");
+    states_.restore(archive, bodies_);
+    take_column(archive, "md.acceleration.modes", mode_acceleration_);
+    take_column(archive, "md.acceleration_before.modes", mode_before_);
     dt_ = real_column(archive, "md.dt").at(0);
     steps_ = integer_column(archive, "steps").at(0);
     list_age_ = integer_column(archive, "md.list_age").at(0);
@@ -122,7 +125,7 @@ class SoftEngine final : public Engine<Y.dim> {
     {
       StageTimer timer(profile_, Stage::grains);
       kick_modes();
-      drift(bodies_, acceleration_, before_, seen_, dt_);
+      grain_pass_.drift(bodies_, states_, seen_, dt_);
       predict_modes();
     }
     {
@@ -137,27 +140,31 @@ class SoftEngine final : public Engine<Y.dim> {
 
   /// Forces, accelerations and the closing half kick. `dt`: time since the last evaluation, 0 at the start.
   void evaluate(double dt) {
-    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, bodies_.stress_driven() || account_};
+    const bool virial_wanted = bodies_.stress_driven() || account_;
+    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, virial_wanted};
     PassSums<D> sums;
     {
       StageTimer timer(profile_, Stage::contacts);
       sums = pass_.run(bodies_, seen_, law, contacts_);
       if (steps_ % 128 == 0) check_stiffness();
     }
-    double relaxation = 0;
+    double relaxed = 0;
+    Mat<D> kinetic;
     {
       StageTimer timer(profile_, Stage::grains);
-      gather(bodies_, seen_, list_, contacts_, acceleration_, 0.5 * dt);
+      kinetic = grain_pass_.gather(bodies_, states_, seen_, list_, contacts_, 0.5 * dt, virial_wanted);
       GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
-      if (relaxers_.on()) relaxation = relax(bodies_, seen_, relaxers_, acceleration_, 0.5 * dt, partial_power_);
+      if (relaxers_.on()) {
+        relaxed = relax(bodies_, states_, seen_, relaxers_, 0.5 * dt, partial_power_);
+        kinetic = kinetic_virial(bodies_, states_);
+      }
     }
     StageTimer timer(profile_, Stage::drives);
-    Mat<D> virial = sums.virial;
-    if (bodies_.stress_driven() || account_) virial += kinetic_virial(bodies_, partial_);
+    const Mat<D> virial = sums.virial + kinetic;
     if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
     if (!account_) return;
     const double work = sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume());
-    energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxation}, dt);
+    energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxed}, dt);
   }
 
   /// Hertz contacts stiffen as they are pressed: beyond what the time step was derived for the run stops.
@@ -184,7 +191,7 @@ class SoftEngine final : public Engine<Y.dim> {
     Vec<D> sum = Vec<D>::Zero(), from_planes = Vec<D>::Zero();
     double scale = 1e-300;
     for (int i = 0; i < bodies_.grains(); ++i)
-      sum += bodies_.mass[i] * (acceleration_.linear[i] + seen_.gradient * seen_.grains.velocity(i) - bodies_.gravity);
+      sum += bodies_.mass[i] * (states_.acceleration(i) + seen_.gradient * seen_.grains.velocity(i) - bodies_.gravity);
     for (std::size_t row = 0; row < list_.size(); ++row) {
       scale += contacts_.force(row).norm();
       if (list_.pairs().j[row] >= bodies_.grains()) from_planes -= contacts_.force(row);
@@ -197,14 +204,14 @@ class SoftEngine final : public Engine<Y.dim> {
 
   void kick_modes() {
     if (bodies_.modes.empty()) return;
-    for (std::size_t k = 0; k < bodies_.modes.size(); ++k) bodies_.modes[k].rate += 0.5 * dt_ * acceleration_.modes[k];
+    for (std::size_t k = 0; k < bodies_.modes.size(); ++k) bodies_.modes[k].rate += 0.5 * dt_ * mode_acceleration_[k];
     bodies_.cell.rate = velocity_gradient(bodies_.modes);
   }
 
   void predict_modes() {
     seen_.gradient = bodies_.cell.rate;
     for (std::size_t k = 0; k < bodies_.modes.size(); ++k)
-      seen_.gradient += 0.5 * dt_ * expected(acceleration_.modes[k], before_.modes[k]) * bodies_.modes[k].direction;
+      seen_.gradient += 0.5 * dt_ * expected(mode_acceleration_[k], mode_before_[k]) * bodies_.modes[k].direction;
   }
 
   void accelerate_modes(const Mat<D>& virial, double kick_dt) {
@@ -212,8 +219,8 @@ class SoftEngine final : public Engine<Y.dim> {
     for (std::size_t k = 0; k < bodies_.modes.size(); ++k) {
       CellMode<D>& mode = bodies_.modes[k];
       if (!mode.stress_driven) continue;
-      acceleration_.modes[k] = (virial.cwiseProduct(mode.direction).sum() - volume * mode.load) / mode.inertia;
-      mode.rate += kick_dt * acceleration_.modes[k];
+      mode_acceleration_[k] = (virial.cwiseProduct(mode.direction).sum() - volume * mode.load) / mode.inertia;
+      mode.rate += kick_dt * mode_acceleration_[k];
     }
     bodies_.cell.rate = velocity_gradient(bodies_.modes);
   }
@@ -295,12 +302,13 @@ class SoftEngine final : public Engine<Y.dim> {
 
   Bodies<Y> bodies_;
   Seen<Y> seen_;
-  Accelerations<Y> acceleration_, before_;  ///< now and a step ago
+  GrainStates<Y> states_;
+  std::vector<double> mode_acceleration_, mode_before_;  ///< of the cell's rates, now and a step ago
   VerletList<D> list_;
   Contacts<Y> contacts_, carried_;
   ContactPass<Y> pass_;
+  GrainPass<Y> grain_pass_;
   ContactColumns<D> shown_;
-  std::vector<Mat<D>> partial_;
   std::vector<double> partial_power_;
   EnergyAccount energy_account_;
   Profile profile_;

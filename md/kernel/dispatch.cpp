@@ -10,6 +10,8 @@ namespace galet::md {
 // Defined in the file of each instruction set.
 template <Layout Y, int W>
 PassFunction pass_of_width(Kernel kernel);
+template <Layout Y, int W>
+GrainFunctions grain_functions_of_width();
 
 namespace {
 
@@ -48,11 +50,25 @@ PassFunction pass_function([[maybe_unused]] Instructions set, Kernel kernel) {
   return pass_of_width<Y, 1>(kernel);
 }
 
+template <Layout Y>
+GrainFunctions grain_functions([[maybe_unused]] Instructions set) {
+#ifdef GALET_AVX2
+  if (set == Instructions::avx2) return grain_functions_of_width<Y, 4>();
+#endif
+  return grain_functions_of_width<Y, 1>();
+}
+
 template PassFunction pass_function<Layout{2, false}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{2, false}>(Instructions);
 template PassFunction pass_function<Layout{2, true}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{2, true}>(Instructions);
 template PassFunction pass_function<Layout{2, true, true}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{2, true, true}>(Instructions);
 template PassFunction pass_function<Layout{3, false}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{3, false}>(Instructions);
 template PassFunction pass_function<Layout{3, true}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{3, true}>(Instructions);
 template PassFunction pass_function<Layout{3, true, true}>(Instructions, Kernel);
+template GrainFunctions grain_functions<Layout{3, true, true}>(Instructions);
 
 }  // namespace galet::md

@@ -28,4 +28,7 @@ int lane_width(Instructions set);
 template <Layout Y>
 PassFunction pass_function(Instructions set, Kernel kernel);
 
+template <Layout Y>
+GrainFunctions grain_functions(Instructions set);
+
 }  // namespace galet::md

@@ -91,4 +91,42 @@ struct PassView {
 /// Evaluates the blocks [begin, end): writes states, columns and out, adds to the sums.
 using PassFunction = void (*)(const PassView&, std::size_t begin, std::size_t end, LaneSums&);
 
+/// Share c of the last change of acceleration that velocities seen by contacts are extrapolated with (md/grain_pass.hpp).
+inline constexpr double extrapolation = 0.5;
+
+/// Where each quantity of a grain's state lies; groups of four doubles.
+///   2D   vx vy w m | ax ay dw/dt I | (the same a step ago) R                     96 B
+///   3D   v m | a - | (a step ago) -      with friction also   w I | dw/dt R | (a step ago) -       96 B or 192 B
+template <Layout Y>
+struct StateGroups {
+  static constexpr int velocity = 0, acceleration = 4, before = 8;
+  static constexpr int spin = 12, turning = 16, turning_before = 20;  ///< 3D with friction
+  static constexpr int mass = 3, inertia = Y.dim == 2 ? 7 : 15, radius = Y.dim == 2 ? 11 : 19;
+  static constexpr int size = Y.dim == 3 && Y.friction ? 24 : 12;
+};
+
+/// What the per-grain work reads and writes. Matrices are columns of four.
+struct GrainView {
+  alignas(32) double gravity[4];
+  alignas(32) double gradient[3][4];  ///< L
+  alignas(32) double deform[3][4];    ///< x' = deform x + step v_half
+  alignas(32) double step[3][4];
+  double* records;
+  double* state;
+  double* position;  ///< dim doubles per grain
+  const double* out;
+  const int* slots;  ///< 8 per grain: 4 of its rows as second member, 4 as first; a row of zeros where it has fewer
+  const int *first, *second, *rows_of_second;  ///< of the neighbour list
+  double kick;  ///< dt/2 that ends a step (0 at the very start)
+  double half;  ///< dt/2 that begins one
+  bool deforming;
+  bool kinetic;  ///< whether the sum of m v (x) v is wanted
+};
+
+struct GrainFunctions {
+  /// Accelerations and the closing half kick; adds to the columns of the sum of m v (x) v.
+  void (*gather)(const GrainView&, std::size_t begin, std::size_t end, double (&kinetic)[3][4]);
+  void (*drift)(const GrainView&, std::size_t begin, std::size_t end);
+};
+
 }  // namespace galet::md

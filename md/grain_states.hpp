@@ -1,0 +1,116 @@
+// The state of the grains between steps, in the order in which the kernels work on it (kernel/view.hpp): velocities,
+// accelerations now and a step ago, mass, inertia and radius. Positions are those of the bodies.
+#pragma once
+
+#include <vector>
+
+#include "common/engine/bodies.hpp"
+#include "md/contacts.hpp"
+#include "md/kernel/view.hpp"
+
+namespace galet::md {
+
+template <Layout Y>
+class GrainStates {
+ public:
+  static constexpr int D = Y.dim;
+  using S = StateGroups<Y>;
+
+  double* data() { return lines_.data()->value; }
+
+  /// Velocities and constants of the bodies; accelerations are kept.
+  void take(const Bodies<Y>& bodies) {
+    lines_.resize((bodies.position.size() * S::size + 7) / 8);
+    for (int i = 0; i < bodies.grains(); ++i) {
+      set(i, S::velocity, bodies.velocity[i]);
+      at(i)[S::mass] = bodies.mass[i];
+      if constexpr (Y.friction) {
+        set_spin(i, S::velocity, S::spin, bodies.spin[i]);
+        at(i)[S::inertia] = bodies.inertia[i], at(i)[S::radius] = bodies.radius[i];
+      }
+    }
+  }
+
+  /// Writes the velocities back.
+  void give(Bodies<Y>& bodies) const {
+    for (int i = 0; i < bodies.grains(); ++i) {
+      bodies.velocity[i] = velocity(i);
+      if constexpr (Y.friction) bodies.spin[i] = spin(i);
+    }
+  }
+
+  Vec<D> velocity(int i) const { return get(i, S::velocity); }
+  Vec<D> acceleration(int i) const { return get(i, S::acceleration); }
+  Spin<D> spin(int i) const requires(Y.friction) { return get_spin(i, S::velocity, S::spin); }
+  Spin<D> turning(int i) const requires(Y.friction) { return get_spin(i, S::acceleration, S::turning); }
+
+  /// Changes an acceleration after the closing kick of dt/2, and the velocity with it.
+  void change(int i, const Vec<D>& change, double kick) {
+    set(i, S::acceleration, acceleration(i) + change);
+    set(i, S::velocity, velocity(i) + kick * change);
+  }
+  void change_turning(int i, const Spin<D>& change, double kick) requires(Y.friction) {
+    set_spin(i, S::acceleration, S::turning, turning(i) + change);
+    set_spin(i, S::velocity, S::spin, spin(i) + kick * change);
+  }
+
+  /// At the very start there is no step before.
+  void forget_before(int grains) {
+    for (int i = 0; i < grains; ++i) {
+      set(i, S::before, acceleration(i));
+      if constexpr (Y.friction) set_spin(i, S::before, S::turning_before, turning(i));
+    }
+  }
+
+  void save(Archive& archive, int grains) const {
+    put(archive, "md.acceleration", grains, S::acceleration, S::turning);
+    put(archive, "md.acceleration_before", grains, S::before, S::turning_before);
+  }
+  void restore(const Archive& archive, const Bodies<Y>& bodies) {
+    take(bodies);
+    get_back(archive, "md.acceleration", bodies.grains(), S::acceleration, S::turning);
+    get_back(archive, "md.acceleration_before", bodies.grains(), S::before, S::turning_before);
+  }
+
+ private:
+  double* at(int i) { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
+  const double* at(int i) const { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
+  Vec<D> get(int i, int group) const { return Eigen::Map<const Vec<D>>(at(i) + group); }
+  void set(int i, int group, const Vec<D>& value) { Eigen::Map<Vec<D>>(at(i) + group) = value; }
+  /// In 2D the rotation is the third of the group of x and y, in 3D a group of its own.
+  Spin<D> get_spin(int i, int linear, int angular) const {
+    if constexpr (D == 2)
+      return at(i)[linear + 2];
+    else
+      return get(i, angular);
+  }
+  void set_spin(int i, int linear, int angular, const Spin<D>& value) {
+    if constexpr (D == 2)
+      at(i)[linear + 2] = value;
+    else
+      set(i, angular, value);
+  }
+  void put(Archive& archive, const std::string& name, int grains, int linear, int angular) const {
+    std::vector<double>&to = archive.reals[name + ".linear"], &turn = archive.reals[name + ".angular"];
+    to.clear(), turn.clear();
+    for (int i = 0; i < grains; ++i) {
+      append(to, get(i, linear));
+      if constexpr (Y.friction) append(turn, get_spin(i, linear, angular));
+    }
+    if (!Y.friction) archive.reals.erase(name + ".angular");
+  }
+  void get_back(const Archive& archive, const std::string& name, int grains, int linear, int angular) {
+    std::vector<Vec<D>> from(grains);
+    take_column(archive, name + ".linear", from);
+    for (int i = 0; i < grains; ++i) set(i, linear, from[i]);
+    if constexpr (Y.friction) {
+      std::vector<Spin<D>> turn(grains, zero_spin<D>());
+      take_column(archive, name + ".angular", turn);
+      for (int i = 0; i < grains; ++i) set_spin(i, linear, angular, turn[i]);
+    }
+  }
+
+  std::vector<Line> lines_;
+};
+
+}  // namespace galet::md
