@@ -5,7 +5,8 @@
 //   drift   v_half = v + dt/2 a;  x' = F x + dt A v_half;  contacts see v_half + dt/2 (a + (a - a_before)/2)
 //           with A = (1 - dt/2 L)^-1 and F = A (1 + dt/2 L): the same map moves grains and box, so that images stay
 //           images to rounding
-//   gather  a' from the contact rows, in a fixed order (rows as second member less rows as first); v' = v_half + dt/2 a'
+//   gather  a' from the contact rows, in a fixed order (rows as second member less rows as first); v' = v_half + dt/2
+//   a'
 // Rotations likewise, without the cell.
 //
 // Why the acceleration is extrapolated: springs that never slide integrate the velocities that contacts see. With the

@@ -108,6 +108,7 @@ class SoftEngine final : public Engine<Y.dim> {
     set_row_constants();
     energy_account_.restore(archive);
     states_.restore(archive, bodies_);
+    for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
     take_column(archive, "md.acceleration.modes", mode_acceleration_);
     take_column(archive, "md.acceleration_before.modes", mode_before_);
     dt_ = real_column(archive, "md.dt").at(0);

@@ -20,11 +20,11 @@ struct Four<1> {
     for (int k = 0; k < 4; ++k) to[k] = v[k];
   }
 };
-#define GALET_FOUR_OPERATION(symbol)                         \
+#define GALET_FOUR_OPERATION(symbol)                           \
   GALET_INLINE Four<1> operator symbol(Four<1> a, Four<1> b) { \
-    Four<1> c;                                               \
+    Four<1> c;                                                 \
     for (int k = 0; k < 4; ++k) c.v[k] = a.v[k] symbol b.v[k]; \
-    return c;                                                \
+    return c;                                                  \
   }
 GALET_FOUR_OPERATION(+)
 GALET_FOUR_OPERATION(-)
@@ -33,6 +33,14 @@ GALET_FOUR_OPERATION(/)
 #undef GALET_FOUR_OPERATION
 /// The first three of `a`, the fourth of `b`.
 GALET_INLINE Four<1> with_fourth(Four<1> a, Four<1> b) { return {{a.v[0], a.v[1], a.v[2], b.v[3]}}; }
+/// Component k in all four places.
+template <int K>
+GALET_INLINE Four<1> everywhere(Four<1> a) {
+  return Four<1>::all(a.v[K]);
+}
+GALET_INLINE void store_some(Four<1> a, double* to, int count) {
+  for (int k = 0; k < count; ++k) to[k] = a.v[k];
+}
 
 #ifdef __AVX2__
 template <>
@@ -48,6 +56,16 @@ GALET_INLINE Four<4> operator-(Four<4> a, Four<4> b) { return {_mm256_sub_pd(a.v
 GALET_INLINE Four<4> operator*(Four<4> a, Four<4> b) { return {_mm256_mul_pd(a.v, b.v)}; }
 GALET_INLINE Four<4> operator/(Four<4> a, Four<4> b) { return {_mm256_div_pd(a.v, b.v)}; }
 GALET_INLINE Four<4> with_fourth(Four<4> a, Four<4> b) { return {_mm256_blend_pd(a.v, b.v, 8)}; }
+template <int K>
+GALET_INLINE Four<4> everywhere(Four<4> a) {
+  return {_mm256_permute4x64_pd(a.v, K * 0x55)};
+}
+/// The first one, two or three to memory that need not be aligned.
+GALET_INLINE void store_some(Four<4> a, double* to, int count) {
+  if (count == 1) return _mm_store_sd(to, _mm256_castpd256_pd128(a.v));
+  _mm_storeu_pd(to, _mm256_castpd256_pd128(a.v));
+  if (count == 3) _mm_store_sd(to + 2, _mm256_extractf128_pd(a.v, 1));
+}
 #endif
 
 template <int W>
@@ -55,12 +73,12 @@ GALET_INLINE Four<W>& operator+=(Four<W>& a, Four<W> b) {
   return a = a + b;
 }
 
-/// matrix (columns as groups) times the vector at `x`.
+/// matrix (columns as groups) times a vector.
 template <Layout Y, int W>
-GALET_INLINE Four<W> apply(const double (&columns)[3][4], const double* x) {
+GALET_INLINE Four<W> apply(const double (&columns)[3][4], Four<W> x) {
   using F = Four<W>;
-  F sum = F::load(columns[0]) * F::all(x[0]) + F::load(columns[1]) * F::all(x[1]);
-  if constexpr (Y.dim == 3) sum = sum + F::load(columns[2]) * F::all(x[2]);
+  F sum = F::load(columns[0]) * everywhere<0>(x) + F::load(columns[1]) * everywhere<1>(x);
+  if constexpr (Y.dim == 3) sum = sum + F::load(columns[2]) * everywhere<2>(x);
   return sum;
 }
 
@@ -88,6 +106,14 @@ GALET_INLINE void add_short_rows(const GrainView& view, int grain, Four<W>& forc
   force = Four<W>::load(sum);
 }
 
+/// The velocity in a record.
+template <Layout Y, int W>
+GALET_INLINE Four<W> seen_velocity(const double* record) {
+  if constexpr (Y.dim == 3) return Four<W>::load(record + 4);
+  alignas(32) const double pair[4] = {record[2], record[3], 0, 0};
+  return Four<W>::load(pair);
+}
+
 /// Accelerations from the contact rows, and the second half of the kick.
 template <Layout Y, int W>
 void gather_grains(const GrainView& view, std::size_t begin, std::size_t end, double (&kinetic)[3][4]) {
@@ -108,7 +134,7 @@ void gather_grains(const GrainView& view, std::size_t begin, std::size_t end, do
     }
     const double mass = state[S::velocity + 3];
     F acceleration = force / F::all(mass) + gravity;
-    if (view.deforming) acceleration = acceleration - apply<Y, W>(view.gradient, record + (Y.dim == 2 ? 2 : 4));
+    if (view.deforming) acceleration = acceleration - apply<Y, W>(view.gradient, seen_velocity<Y, W>(record));
     if constexpr (Y.friction && Y.dim == 2) {
       // Rows: Fx Fy twist torque; groups of the state: x, y and the rotation.
       alignas(32) double turning[4], rolling[4], linear[4];
@@ -159,39 +185,31 @@ void drift_grains(const GrainView& view, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     double* state = view.state + i * S::size;
     double* record = view.records + i * record_size(Y);
-    double* position = view.position + i * Y.dim;
     const F acceleration = F::load(state + S::acceleration), velocity = F::load(state + S::velocity);
     const F mid = with_fourth(velocity + half * acceleration, velocity);
     mid.store(state + S::velocity);
     const F seen = mid + half * expected<W>(acceleration, state + S::before);
-    alignas(32) double moved[4], predicted[4];
-    seen.store(predicted);
-    if (view.deforming) {
-      const F place = apply<Y, W>(view.deform, position) + apply<Y, W>(view.step, state + S::velocity);
-      place.store(moved);
-    } else {
-      (whole * mid).store(moved);
-      for (int a = 0; a < Y.dim; ++a) moved[a] = position[a] + moved[a];
-    }
-    for (int a = 0; a < Y.dim; ++a) position[a] = moved[a];
+    const F place = F::load(record);
+    const F moved =
+        view.deforming ? apply<Y, W>(view.deform, place) + apply<Y, W>(view.step, mid) : place + whole * mid;
+    store_some(moved, view.position + i * Y.dim, Y.dim);
     if constexpr (Y.dim == 2) {
-      record[0] = moved[0], record[1] = moved[1], record[2] = predicted[0], record[3] = predicted[1];
-      if constexpr (Y.friction) record[4] = state[S::radius] * predicted[2], record[5] = predicted[2];
+      store_some(moved, record, 2), store_some(seen, record + 2, 2);
+      if constexpr (Y.friction) {
+        const F spin = everywhere<2>(seen);
+        store_some(spin, record + 5, 1), store_some(F::all(state[S::radius]) * spin, record + 4, 1);
+      }
     } else if constexpr (!Y.friction) {
-      for (int a = 0; a < 3; ++a) record[a] = moved[a], record[4 + a] = predicted[a];
+      with_fourth(moved, F::zero()).store(record), with_fourth(seen, F::zero()).store(record + 4);
     } else {
       const F turning = F::load(state + S::turning), spin = F::load(state + S::spin);
       const F turned = with_fourth(spin + half * turning, spin);
       turned.store(state + S::spin);
-      const F spin_seen = turned + half * expected<W>(turning, state + S::turning_before);
-      alignas(32) double spinning[4], surface[4];
-      spin_seen.store(spinning);
-      moved[3] = spinning[0], predicted[3] = spinning[1];
-      F::load(moved).store(record), F::load(predicted).store(record + 4);
-      (F::all(state[S::radius]) * spin_seen).store(surface);
-      surface[3] = spinning[2];
-      F::load(surface).store(record + 8);
-      if constexpr (Y.rolling) spin_seen.store(record + 12);
+      const F spinning = turned + half * expected<W>(turning, state + S::turning_before);
+      with_fourth(moved, everywhere<0>(spinning)).store(record);
+      with_fourth(seen, everywhere<1>(spinning)).store(record + 4);
+      with_fourth(F::all(state[S::radius]) * spinning, everywhere<2>(spinning)).store(record + 8);
+      if constexpr (Y.rolling) with_fourth(spinning, F::zero()).store(record + 12);
     }
   }
 }

@@ -91,7 +91,8 @@ struct PassView {
 /// Evaluates the blocks [begin, end): writes states, columns and out, adds to the sums.
 using PassFunction = void (*)(const PassView&, std::size_t begin, std::size_t end, LaneSums&);
 
-/// Share c of the last change of acceleration that velocities seen by contacts are extrapolated with (md/grain_pass.hpp).
+/// Share c of the last change of acceleration that velocities seen by contacts are extrapolated with
+/// (md/grain_pass.hpp).
 inline constexpr double extrapolation = 0.5;
 
 /// Where each quantity of a grain's state lies; groups of four doubles.
@@ -117,8 +118,8 @@ struct GrainView {
   const double* out;
   const int* slots;  ///< 8 per grain: 4 of its rows as second member, 4 as first; a row of zeros where it has fewer
   const int *first, *second, *rows_of_second;  ///< of the neighbour list
-  double kick;  ///< dt/2 that ends a step (0 at the very start)
-  double half;  ///< dt/2 that begins one
+  double kick;                                 ///< dt/2 that ends a step (0 at the very start)
+  double half;                                 ///< dt/2 that begins one
   bool deforming;
   bool kinetic;  ///< whether the sum of m v (x) v is wanted
 };

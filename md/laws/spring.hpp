@@ -129,8 +129,8 @@ GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& before, con
 /// Carries a vector of the tangent plane of `before` to that of `after` (unit normals), for a pair that turns by the
 /// rotation vector `turn` (mean spin of the two grains times dt): by the smallest rotation that takes one normal to the
 /// other, then about the new normal by the angle psi with t = tan(psi/2) = tan(|turn|/2) turn.n/|turn|. A pair that
-/// turns rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for |turn| < 0.02; beyond
-/// that the error is 4e-4 |turn|^7).
+/// turns rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for |turn| < 0.02;
+/// beyond that the error is 4e-4 |turn|^7).
 template <class V>
 GALET_INLINE Space<V> transport(const Space<V>& value, const Space<V>& before, const Space<V>& after,
                                 const Space<V>& turn) {
