@@ -12,8 +12,8 @@ namespace {
 
 /// Seconds per grain and step of md, measured in a dense flow.
 double md_rate(const Layout& layout) {
-  if (layout.dim == 2) return layout.friction ? 4.5e-8 : 3.0e-8;
-  return layout.friction ? 1.2e-7 : 8.0e-8;
+  if (layout.dim == 2) return layout.friction ? 3.5e-8 : 2.5e-8;
+  return layout.friction ? 9e-8 : 6e-8;
 }
 
 /// Seconds per grain and step of cd: about 25 ns per contact and sweep (disks with friction), and sweeps in

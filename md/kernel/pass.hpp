@@ -52,13 +52,9 @@ void evaluate_blocks(const PassView& given, std::size_t begin, std::size_t end, 
   Rows<Y, K, W> rows(view, sums);
   constexpr int parts = block_rows / W;
   const std::size_t first = begin * parts, last = end * parts;
-  Geometry<Y, W> now = geometry_of<Y, W>(view, given, begin, 0);
   for (std::size_t part = first; part < last; ++part) {
-    const std::size_t following = part + 1 < last ? part + 1 : part;
-    const Geometry<Y, W> next =
-        geometry_of<Y, W>(view, given, following / parts, static_cast<int>(following % parts) * W);
-    rows.evaluate(now, part / parts, static_cast<int>(part % parts) * W);
-    now = next;
+    const int lane = static_cast<int>(part % parts) * W;
+    rows.evaluate(geometry_of<Y, W>(view, given, part / parts, lane), part / parts, lane);
   }
   if constexpr (K.account)
     for (std::size_t index = begin; index < end; ++index)

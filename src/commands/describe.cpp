@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/scene/packing.hpp"
+#include "md/kernel/dispatch.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
 #include "src/compare.hpp"
@@ -47,6 +48,9 @@ void add_notes(Outlook& outlook) {
     outlook.notes.push_back(fmt::format(
         "md.dt is above its stability bound {:.4g}{}", *derived.md_dt_stable,
         outlook.scene.md.allow_unsafe_dt ? ", as allowed by md.allow_unsafe_dt" : ": md will refuse to run"));
+  if (derived.md_dt)
+    outlook.notes.push_back(fmt::format("on this machine md uses its {} kernels: {} contacts at once",
+                                        to_string(md::instructions()), md::lane_width(md::instructions())));
   if (outlook.scene.initial.kind == InitialKind::compressed_gas)
     outlook.notes.push_back(
         fmt::format("before the run the gas is compressed, for at most {:g} inertial times; that is not in the cost",

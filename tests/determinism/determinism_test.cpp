@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/parallel.hpp"
+#include "md/kernel/dispatch.hpp"
 #include "tests/determinism/sheared.hpp"
 
 namespace galet::test {
@@ -57,6 +58,64 @@ TEST(determinism, ThreadsAreReallyUsed) {
   EXPECT_GT(first_end, 0u);
   EXPECT_EQ(first_end, second_begin);
   EXPECT_LT(first_end, 3000u);
+}
+
+/// Engines made while it lives use the instruction set.
+class Use {
+ public:
+  explicit Use(md::Instructions set) : before_(md::instructions()) { md::use_instructions(set); }
+  ~Use() { md::use_instructions(before_); }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+
+ private:
+  md::Instructions before_;
+};
+
+template <int D>
+void check_instructions(const RichLaw* law = nullptr) {
+  const auto run = [&](md::Instructions set) {
+    const Use use(set);
+    auto engine = small_run<D>(EngineKind::md, law);
+    engine->advance(400);
+    EXPECT_GT(engine->snapshot().contacts->size(), 10u);
+    return hash_of<D>(*engine);
+  };
+  EXPECT_EQ(run(md::best_instructions()), run(md::Instructions::scalar)) << "D = " << D;
+}
+
+TEST(determinism, EveryInstructionSetGivesTheSameBits) {
+  if (md::best_instructions() == md::Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
+  check_instructions<2>(), check_instructions<3>();
+  for (const RichLaw& law : rich_laws()) {
+    SCOPED_TRACE(law.name);
+    check_instructions<2>(&law), check_instructions<3>(&law);
+  }
+}
+
+/// The same with planes, and without friction (a layout of its own).
+TEST(determinism, EveryInstructionSetGivesTheSameBitsBetweenPlanes) {
+  if (md::best_instructions() == md::Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
+  for (double friction : {0.0, 0.4}) {
+    const auto run = [&](md::Instructions set) {
+      const Use use(set);
+      Scene scene = periodic_scene(3, friction, 0.5, 1e3);
+      scene.cell.periodic = {true, true, false};
+      Sample<3> sample = crystal_sample<3>(3, 0.999);
+      sample.cell.periodic = {true, true, false};
+      shake<3>(sample, 0.5, 71, 0.5);
+      const double height = sample.cell.box(2, 2);
+      sample.planes = {{Vec<3>(0, 0, -0.3), Vec<3>::UnitZ(), Vec<3>(0.1, 0, 0)},
+                       {Vec<3>(0, 0, height + 0.3), -Vec<3>::UnitZ(), Vec<3>::Zero()}};
+      const auto engine = make_engine<3>(EngineKind::md, scene, sample);
+      engine->advance(400);
+      int at_planes = 0;
+      for (const int j : engine->snapshot().contacts->j) at_planes += j >= sample.count();
+      EXPECT_GT(at_planes, 0);
+      return hash_of<3>(*engine);
+    };
+    EXPECT_EQ(run(md::best_instructions()), run(md::Instructions::scalar)) << "mu = " << friction;
+  }
 }
 
 template <int D>
