@@ -47,7 +47,8 @@ cat <<'END'
 
 Glass beads (E = 70 GPa, ν = 0.3), N = 4000, assembled from a gas at 10 kPa, then compressed further; each row at rest. Agnolin and
 Roux (2007), state A, about: Φ = 0.637, z* = 6.07, 1.3 % rattlers at κ = 39000; the chapter: z* grows by about 5 % down to κ = 2000.
-`benchmarks/run.sh hertz_compression`.
+`benchmarks/run.sh hertz_compression`. Rows marked NOT SETTLED did not come to rest within 400 inertial times (kinetic energy per grain
+above 5e-8 P d³): damping by accelerations slows the last densification, so that Φ and z* of these rows are too low.
 
 END
 for file in "$results"/hertz_compression/seed_*.csv; do csv_table "$file"; done
