@@ -44,7 +44,6 @@ struct PassSums {
       for (int b = 0; b < D; ++b) virial(a, b) += sum(lanes.virial[D * a + b]);
     normal.viscous += sum(lanes.normal_viscous);
     add(sliding, lanes.sliding), add(rolling, lanes.rolling), add(pivoting, lanes.pivoting);
-    plane_power += sum(lanes.plane_power);
   }
 
  private:
@@ -71,9 +70,10 @@ class ContactPass {
   Instructions instructions() const { return instructions_; }
 
   /// Writes the rows of `contacts`.
-  PassSums<D> run(const Bodies<Y>& bodies, const Seen<Y>& seen, const PassLaw& law, Contacts<Y>& contacts) {
+  PassSums<D> run(const Bodies<Y>& bodies, Seen<Y>& seen, const PassLaw& law, Contacts<Y>& contacts) {
     constexpr std::size_t chunk = chunk_size / block_rows;
     const std::size_t blocks = contacts.block_count(), chunks = (blocks + chunk - 1) / chunk;
+    place_planes(bodies, seen, contacts);
     const PassView view = view_of(bodies, seen, law, contacts);
     const bool sums_wanted = law.virial || kernel_.account;
     refill(partial_, sums_wanted ? chunks : 1, LaneSums{});
@@ -88,35 +88,47 @@ class ContactPass {
     PassSums<D> sums;
     if (sums_wanted)
       for (const LaneSums& part : partial_) sums.add(part);
+    if (kernel_.account)
+      for (const PlaneRow& row : contacts.plane_rows())
+        sums.plane_power -= contacts.force(row.row).dot(bodies.planes[row.plane].velocity);
     return sums;
   }
 
  private:
+  /// The records of the planes' points next to the grains. A pair of records moves with v_j - v_i + L b: with
+  /// V - L x_j for v_j that is the velocity of the plane at x_j less that of the grain.
+  void place_planes(const Bodies<Y>& bodies, Seen<Y>& seen, const Contacts<Y>& contacts) {
+    const std::vector<PlaneRow>& rows = contacts.plane_rows();
+    parallel_ranges(rows.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const Plane<D>& plane = bodies.planes[rows[k].plane];
+        const Vec<D> grain = seen.grains.position(rows[k].grain);
+        const Vec<D> foot = grain - (grain - plane.point).dot(plane.normal) * plane.normal;
+        seen.grains.put_position(rows[k].record, foot);
+        seen.grains.put_velocity(rows[k].record, plane.velocity - seen.gradient * foot);
+      }
+    });
+  }
+
   PassView view_of(const Bodies<Y>& bodies, const Seen<Y>& seen, const PassLaw& law, Contacts<Y>& contacts) {
     refill(shifts_, (contacts.images().size() + 1) / 2, Line{});
     for (std::size_t k = 0; k < contacts.images().size(); ++k) {
       const Vec<D> shift = lattice<D>(bodies.cell.box, contacts.images()[k]);
       for (int a = 0; a < D; ++a) shifts_[k / 2].value[k % 2 * 4 + a] = shift[a];
     }
-    refill(planes_, bodies.planes.size(), PlaneRecord{});
-    for (std::size_t p = 0; p < planes_.size(); ++p)
-      for (int a = 0; a < D; ++a) {
-        planes_[p].point[a] = bodies.planes[p].point[a];
-        planes_[p].normal[a] = bodies.planes[p].normal[a];
-        planes_[p].velocity[a] = bodies.planes[p].velocity[a];
-      }
     PassView view{};
     view.records = seen.grains.data();
     view.shifts = shifts_.data()->value;
-    view.planes = planes_.data();
-    view.first_plane = bodies.grains();
     view.blocks = contacts.blocks();
+    view.constants = contacts.constants();
+    view.constants_stride = contacts.equal_pairs() ? 0 : 1;
     view.columns = contacts.columns();
     view.out = contacts.out();
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) view.gradient[D * a + b] = seen.gradient(a, b);
     view.deforming = !seen.gradient.isZero(0);
     view.virial = law.virial;
+    view.stepping = law.half_before > 0;
     view.half_before = law.half_before, view.half_after = law.half_after;
     view.range = law.range;
     view.kind = law.kind;
@@ -130,7 +142,6 @@ class ContactPass {
   PassFunction function_;
   std::vector<LaneSums> partial_;
   std::vector<Line> shifts_;
-  std::vector<PlaneRecord> planes_;
 };
 
 }  // namespace galet::md

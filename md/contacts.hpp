@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
@@ -20,6 +21,11 @@ struct alignas(64) Line {
 /// What the pair of a row is doing.
 enum class RowState : std::uint8_t { apart, touching, attracted /**< across a gap, by a cohesion of range D0 */ };
 
+/// A row of a grain and a plane, and the record that stands for the plane.
+struct PlaneRow {
+  int row, grain, plane, record;
+};
+
 template <Layout Y>
 class Contacts {
  public:
@@ -29,9 +35,12 @@ class Contacts {
   bool varying_stiffness = false;  ///< whether rows remember their stiffness
 
   std::size_t size() const { return rows_; }
-  std::size_t block_count() const { return blocks_.size(); }
+  std::size_t block_count() const { return blocks_.size() - 1; }
   RowBlock* blocks() { return blocks_.data(); }
   double* columns() { return columns_.data()->value; }
+  const RowConstants* constants() const { return constants_.data(); }
+  /// Whether the first block of constants serves all rows.
+  bool equal_pairs() const { return equal_pairs_; }
   double* out() { return out_.data()->value; }
   const double* out() const { return out_.data()->value; }
 
@@ -42,6 +51,28 @@ class Contacts {
     return columns_[row / block_rows * C::count + column].value[row % block_rows];
   }
   RowBlock& block_of(std::size_t row) { return blocks_[row / block_rows]; }
+  double reach(std::size_t row) const { return constants_of(row).reach[row % block_rows]; }
+  double coefficient(std::size_t row) const { return constants_of(row).coefficient[row % block_rows]; }
+
+  /// Takes the constants of the rows from constants_of_row(row) -> {reach, coefficient, critical}; with `equal`, those
+  /// of row 0 for all.
+  template <class Constants>
+  void set_constants(bool equal, Constants constants_of_row) {
+    equal_pairs_ = equal;
+    refill(constants_, equal ? 1 : blocks_.size(), RowConstants{});
+    for (std::size_t row = 0; row < (equal ? std::min<std::size_t>(1, rows_) : rows_); ++row) {
+      const std::array<double, 3> values = constants_of_row(row);
+      RowConstants& block = constants_[row / block_rows];
+      const auto put = [&](int k) {
+        block.reach[k] = values[0], block.inverse_reach[k] = 1 / values[0];
+        block.coefficient[k] = values[1], block.critical[k] = values[2];
+      };
+      if (equal)
+        for (int k = 0; k < block_rows; ++k) put(k);
+      else
+        put(row % block_rows);
+    }
+  }
   int law(std::size_t row) const { return blocks_[row / block_rows].law[row % block_rows]; }
 
   RowState state(std::size_t row) const {
@@ -66,14 +97,18 @@ class Contacts {
       return {at(row, C::spring), at(row, C::spring + 1), at(row, C::spring + 2)};
   }
 
-  /// Takes over the rows of `old` that the rebuilt list still has; forces are computed anew by the next pass. The
-  /// caller fills in the constants of the rows.
+  /// Takes over the rows of `old` that the rebuilt list still has. The caller fills in the constants of the rows.
   void carry(const Contacts& old, const VerletList<D>& list, int grains) {
     clear(list, grains);
     for (std::size_t row = 0; row < rows_; ++row) {
       const int from = list.origin()[row];
       if (from < 0) continue;
       set_state(row, old.state(from));
+      // The last step's forces: what ends before the next pass needs them (laws/crossing.hpp).
+      for (int k = 0; k < out_size(Y); ++k) {
+        const bool twist = Y.friction && (D == 2 ? k == 2 : k >= 4 && k < 8);
+        out()[row * out_size(Y) + k] = (list.flipped(row) && !twist ? -1 : 1) * old.out()[from * out_size(Y) + k];
+      }
       if constexpr (Y.friction) {
         // When i and j change places, vectors and relative rotations change sign; the scalar spring of a disk contact
         // and a rotation about the normal do not.
@@ -91,6 +126,10 @@ class Contacts {
 
   /// Rows of each grain, see GrainView.
   const int* slots() const { return slots_.data(); }
+
+  const std::vector<PlaneRow>& plane_rows() const { return plane_rows_; }
+  /// Records that the rows refer to.
+  int record_count(int grains) const { return grains + 2 + static_cast<int>(plane_rows_.size()); }
 
   /// Lattice coordinates of the images that rows refer to, in the order of their `shift`.
   const std::vector<Image<D>>& images() const { return images_; }
@@ -170,52 +209,69 @@ class Contacts {
   /// All rows apart and without history. Rows that only fill the last block refer to the two records after the grains.
   void clear(const VerletList<D>& list, int grains) {
     const PairColumns<D>& pairs = list.pairs();
+    if (static_cast<std::size_t>(grains) > most_grains(Y)) throw RunError("too many grains for one sample of md");
     rows_ = pairs.size();
-    const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;
+    const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;  // and one more that only fills up
     RowBlock empty{};
-    for (int k = 0; k < block_rows; ++k) empty.i[k] = grains, empty.j[k] = grains + 1;
-    refill(blocks_, blocks, empty);
-    refill(columns_, std::max<std::size_t>(1, blocks) * C::count, Line{});
+    for (int k = 0; k < block_rows; ++k) empty.i[k] = record_at(grains), empty.j[k] = record_at(grains + 1);
+    refill(blocks_, blocks + 1, empty);
+    refill(columns_, std::max<std::size_t>(1, blocks * C::count), Line{});
     refill(out_, (blocks + 1) * out_size(Y), Line{});  // the last block's rows stay zero
-    for (std::size_t row = rows_; row < blocks * block_rows; ++row) at(row, C::reach) = -1e300;
+    plane_rows_.clear();
     images_.reserve(128);  // more than a usual cell has: no growth in the middle of a run
     images_.assign(1, Image<D>{});
     for (std::size_t row = 0; row < rows_; ++row) {
       RowBlock& block = block_of(row);
       const int k = static_cast<int>(row % block_rows);
-      block.i[k] = pairs.i[row], block.j[k] = pairs.j[row];
-      if (pairs.j[row] >= grains) block.planes |= static_cast<std::uint8_t>(1u << k);
-      block.shift[k] = shift_of(pairs.image[row]);
+      block.i[k] = record_at(pairs.i[row]);
+      if (pairs.j[row] < grains) {
+        block.j[k] = record_at(pairs.j[row]);
+      } else {
+        const int record = grains + 2 + static_cast<int>(plane_rows_.size());
+        plane_rows_.push_back({static_cast<int>(row), pairs.i[row], pairs.j[row] - grains, record});
+        block.j[k] = record_at(record);
+      }
+      block.shift[k] = static_cast<std::uint32_t>(shift_of(pairs.image[row]) * 4 * sizeof(double));
     }
     fill_slots(list, grains, static_cast<int>(blocks * block_rows));
   }
 
   void fill_slots(const VerletList<D>& list, int grains, int zero_row) {
-    refill(slots_, 8 * static_cast<std::size_t>(grains), zero_row);
+    refill(slots_, slots_per_grain * static_cast<std::size_t>(grains), zero_row);
     const auto first = list.first(), second = list.second(), rows_of_second = list.rows_of_second();
     for (int i = 0; i < grains; ++i) {
-      int* slot = slots_.data() + 8 * static_cast<std::size_t>(i);
+      int* slot = slots_.data() + slots_per_grain * static_cast<std::size_t>(i);
       for (int k = 0; k < 4 && second[i] + k < second[i + 1]; ++k) slot[k] = rows_of_second[second[i] + k];
       for (int k = 0; k < 4 && first[i] + k < first[i + 1]; ++k) slot[4 + k] = first[i] + k;
+      slot[8] = second[i + 1] - second[i] > 4 || first[i + 1] - first[i] > 4;
     }
   }
 
-  std::uint16_t shift_of(const Image<D>& image) {
+  /// Where the record of a grain begins, in bytes.
+  static std::uint32_t record_at(int grain) {
+    return static_cast<std::uint32_t>(grain) * static_cast<std::uint32_t>(record_size(Y) * sizeof(double));
+  }
+
+  int shift_of(const Image<D>& image) {
     if (image == images_[0]) return 0;
     // There are few: the neighbours of the cell, as a rule.
     auto found = std::find(images_.begin() + 1, images_.end(), image);
     if (found == images_.end()) {
-      if (images_.size() > 65535) throw RunError("the cell is too small: grains meet more than 65535 of its images");
       images_.push_back(image);
       found = images_.end() - 1;
     }
-    return static_cast<std::uint16_t>(found - images_.begin());
+    return static_cast<int>(found - images_.begin());
   }
 
+  const RowConstants& constants_of(std::size_t row) const { return constants_[equal_pairs_ ? 0 : row / block_rows]; }
+
   std::size_t rows_ = 0;
-  std::vector<RowBlock> blocks_;
+  bool equal_pairs_ = false;
+  std::vector<RowBlock> blocks_ = std::vector<RowBlock>(1);
+  std::vector<RowConstants> constants_;
   std::vector<Line> columns_, out_;
   std::vector<int> slots_;
+  std::vector<PlaneRow> plane_rows_;
   std::vector<Image<D>> images_ = std::vector<Image<D>>(1);
 };
 

@@ -84,7 +84,7 @@ void add_contact_energy(const Contacts<Y>& contacts, std::size_t row, const LawK
                         const PairTerms<double>& terms, const ContactFrame<Y.dim>& frame, EnergyParts& parts) {
   using C = RowColumns<Y>;
   if (!contacts.acts(row)) return;
-  const double coefficient = contacts.at(row, C::coefficient);
+  const double coefficient = contacts.coefficient(row);
   parts.cohesive += cohesive_energy(kind, terms, coefficient, frame.gap);
   if (!contacts.touches(row) || frame.gap >= 0) return;
   parts.elastic_normal += elastic_energy(kind, coefficient, -frame.gap);

@@ -1,13 +1,14 @@
-// Grain pass and drift of the md step: everything that is done per grain. The loops are kernels (kernel/grains.hpp).
+// Grain pass of the md step: everything that is done per grain. The loops are kernels (kernel/grains.hpp).
 //
 // Time scheme (velocity Verlet with predicted velocities, second order for smooth forces). Between steps the state is
 // (x, v, a) at one time, a = F/m + gravity - L v. One step:
 //   drift   v_half = v + dt/2 a;  x' = F x + dt A v_half;  contacts see v_half + dt/2 (a + (a - a_before)/2)
 //           with A = (1 - dt/2 L)^-1 and F = A (1 + dt/2 L): the same map moves grains and box, so that images stay
 //           images to rounding
-//   gather  a' from the contact rows, in a fixed order (rows as second member less rows as first); v' = v_half + dt/2
-//   a'
-// Rotations likewise, without the cell.
+//   gather  a' from the contact rows, in a fixed order (rows as second member less rows as first);
+//           v' = v_half + dt/2 a'
+// The gather of one step and the drift of the next are one loop where nothing comes between them (a cell driven by
+// stress moves with the sum over all grains). Rotations likewise, without the cell.
 //
 // Why the acceleration is extrapolated: springs that never slide integrate the velocities that contacts see. With the
 // plain prediction v_half + dt/2 a an undamped spring of frequency w gains amplitude, (w dt)^4 / 8 a step, and nothing
@@ -39,20 +40,25 @@ class GrainPass {
 
   explicit GrainPass(Instructions set) : functions_(grain_functions<Y>(set)) {}
 
-  /// First half of the step. On return the states hold v_half, the bodies the new positions, `seen` what contacts see.
-  void drift(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, double dt) const {
-    const Mat<D> identity = Mat<D>::Identity();
-    const Mat<D> gradient = bodies.cell.rate;  // L at the half step
-    const Mat<D> advance = (identity - 0.5 * dt * gradient).inverse();
-    const Mat<D> deform = advance * (identity + 0.5 * dt * gradient);
+  /// First half of the step. On return the states hold v_half, the records new positions and what contacts see. Returns
+  /// a bound of the grains' half-step velocity.
+  double drift(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, double dt) {
     GrainView view = view_of(bodies, states, seen);
-    fill(view.deform, deform), fill(view.step, dt * advance);
-    view.half = 0.5 * dt;
-    view.deforming = !gradient.isZero(0);
-    parallel_ranges(bodies.position.size(),
-                    [&](std::size_t begin, std::size_t end) { functions_.drift(view, begin, end); });
-    if (view.deforming) bodies.cell.box = deform * bodies.cell.box;
-    for (Plane<D>& plane : bodies.planes) plane.point += dt * plane.velocity;
+    const Mat<D> deform = set_drift(view, bodies.cell.rate, dt);
+    const double fastest = each_chunk(view, functions_.drift);
+    move_boundaries(bodies, deform, dt);
+    return fastest;
+  }
+
+  /// The end of one step and the first half of the next, for a cell whose rate does not change. Returns as drift.
+  double step(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, const VerletList<D>& list,
+              const Contacts<Y>& contacts, double dt) {
+    GrainView view = view_of(bodies, states, seen);
+    set_gather(view, bodies, seen, list, contacts, 0.5 * dt);
+    const Mat<D> deform = set_drift(view, bodies.cell.rate, dt);
+    const double fastest = each_chunk(view, functions_.step);
+    move_boundaries(bodies, deform, dt);
+    return fastest;
   }
 
   /// Accelerations from the contact rows, and the second half of the kick (`kick` = dt/2; 0 at the very start). Returns
@@ -60,29 +66,22 @@ class GrainPass {
   Mat<D> gather(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, const VerletList<D>& list,
                 const Contacts<Y>& contacts, double kick, bool kinetic) {
     GrainView view = view_of(bodies, states, seen);
-    fill(view.gradient, seen.gradient);
-    for (int a = 0; a < D; ++a) view.gravity[a] = bodies.gravity[a];
-    view.out = contacts.out();
-    view.slots = contacts.slots();
-    view.first = list.first().data(), view.second = list.second().data();
-    view.rows_of_second = list.rows_of_second().data();
-    view.kick = kick;
-    view.deforming = !seen.gradient.isZero(0);
+    set_gather(view, bodies, seen, list, contacts, kick);
     view.kinetic = kinetic;
-    refill(partial_, chunk_count(bodies.position.size()), Squares{});
+    refill(partial_, chunk_count(bodies.position.size()), Columns{});
     parallel_chunks(bodies.position.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       functions_.gather(view, begin, end, partial_[chunk].column);
     });
     Mat<D> total = Mat<D>::Zero();
     if (kinetic)
-      for (const Squares& part : partial_)
+      for (const Columns& part : partial_)
         for (int a = 0; a < D; ++a)
           for (int b = 0; b < D; ++b) total(a, b) += part.column[b][a];
     return total;
   }
 
  private:
-  struct alignas(32) Squares {
+  struct alignas(32) Columns {
     double column[3][4] = {};
   };
 
@@ -91,17 +90,58 @@ class GrainPass {
       for (int b = 0; b < D; ++b) columns[b][a] = matrix(a, b);
   }
 
-  static GrainView view_of(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen) {
-    static_assert(sizeof(Vec<D>) == D * sizeof(double));
+  GrainView view_of(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen) const {
     GrainView view{};
     view.records = seen.grains.data();
     view.state = states.data();
-    view.position = bodies.position.data()->data();
+    view.count = bodies.position.size();
     return view;
   }
 
+  static void set_gather(GrainView& view, const Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<D>& list,
+                         const Contacts<Y>& contacts, double kick) {
+    fill(view.gradient, seen.gradient);
+    for (int a = 0; a < D; ++a) view.gravity[a] = bodies.gravity[a];
+    view.out = contacts.out();
+    view.slots = contacts.slots();
+    view.first = list.first().data(), view.second = list.second().data();
+    view.rows_of_second = list.rows_of_second().data();
+    view.kick = kick;
+    view.deforming = !seen.gradient.isZero(0);
+  }
+
+  /// Returns the map that moves the box.
+  static Mat<D> set_drift(GrainView& view, const Mat<D>& gradient, double dt) {
+    const Mat<D> identity = Mat<D>::Identity();
+    const Mat<D> advance = (identity - 0.5 * dt * gradient).inverse();
+    const Mat<D> deform = advance * (identity + 0.5 * dt * gradient);
+    fill(view.deform, deform), fill(view.step, dt * advance);
+    view.half = 0.5 * dt;
+    view.deforming = !gradient.isZero(0);
+    return deform;
+  }
+
+  static void move_boundaries(Bodies<Y>& bodies, const Mat<D>& deform, double dt) {
+    if (!bodies.cell.rate.isZero(0)) bodies.cell.box = deform * bodies.cell.box;
+    for (Plane<D>& plane : bodies.planes) plane.point += dt * plane.velocity;
+  }
+
+  using Moving = void (*)(const GrainView&, std::size_t, std::size_t, double (&)[4]);
+
+  double each_chunk(const GrainView& view, Moving function) {
+    refill(partial_, chunk_count(view.count), Columns{});
+    parallel_chunks(view.count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      function(view, begin, end, partial_[chunk].column[0]);
+    });
+    double largest[D] = {}, sum = 0;
+    for (const Columns& part : partial_)
+      for (int a = 0; a < D; ++a) largest[a] = std::max(largest[a], part.column[0][a]);
+    for (const double square : largest) sum += square;
+    return std::sqrt(sum);
+  }
+
   GrainFunctions functions_;
-  std::vector<Squares> partial_;
+  std::vector<Columns> partial_;
 };
 
 /// Ways to an equilibrium that break the balance of momentum.

@@ -17,8 +17,15 @@ class GrainRecords {
 
   /// Room for `grains` and the two records that rows without a pair refer to.
   void resize(int grains) {
-    lines_.assign((static_cast<std::size_t>(grains + 2) * record_size(Y) + 7) / 8, Line{});
-    put_position(grains + 1, Vec<D>(Vec<D>::UnitX()));
+    lines_.clear();
+    make_room(grains + 2);
+    put_position(grains + 1, Vec<D>(filler_distance * Vec<D>::UnitX()));
+  }
+
+  /// Room for more records; keeps those that are there.
+  void make_room(int records) {
+    const std::size_t lines = (static_cast<std::size_t>(records) * record_size(Y) + 7) / 8;
+    if (lines > lines_.size()) lines_.resize(lines + lines / 8, Line{});
   }
 
   double* data() { return lines_.data()->value; }
@@ -41,6 +48,7 @@ class GrainRecords {
       if constexpr (Y.rolling) to[12] = spin[0], to[13] = spin[1], to[14] = spin[2];
     }
   }
+  Vec<D> position(int i) const { return Eigen::Map<const Vec<D>>(record(i)); }
   Vec<D> velocity(int i) const { return Eigen::Map<const Vec<D>>(record(i) + (D == 2 ? 2 : 4)); }
   Spin<D> spin(int i) const requires(Y.friction) {
     const double* from = record(i);

@@ -1,5 +1,5 @@
 // The state of the grains between steps, in the order in which the kernels work on it (kernel/view.hpp): velocities,
-// accelerations now and a step ago, mass, inertia and radius. Positions are those of the bodies.
+// accelerations now and as expected for the next step, and constants of each grain. Positions are in the records.
 #pragma once
 
 #include <vector>
@@ -23,11 +23,8 @@ class GrainStates {
     lines_.resize((bodies.position.size() * S::size + 7) / 8);
     for (int i = 0; i < bodies.grains(); ++i) {
       set(i, S::velocity, bodies.velocity[i]);
-      at(i)[S::mass] = bodies.mass[i];
-      if constexpr (Y.friction) {
-        set_spin(i, S::velocity, S::spin, bodies.spin[i]);
-        at(i)[S::inertia] = bodies.inertia[i], at(i)[S::radius] = bodies.radius[i];
-      }
+      if constexpr (Y.friction) set_spin(i, S::velocity, S::spin, bodies.spin[i]);
+      set_constants(i, bodies);
     }
   }
 
@@ -47,34 +44,52 @@ class GrainStates {
   /// Changes an acceleration after the closing kick of dt/2, and the velocity with it.
   void change(int i, const Vec<D>& change, double kick) {
     set(i, S::acceleration, acceleration(i) + change);
+    set(i, S::expected, get(i, S::expected) + (1 + extrapolation) * change);
     set(i, S::velocity, velocity(i) + kick * change);
   }
   void change_turning(int i, const Spin<D>& change, double kick) requires(Y.friction) {
     set_spin(i, S::acceleration, S::turning, turning(i) + change);
+    set_spin(i, S::expected, S::expected_turning,
+             get_spin(i, S::expected, S::expected_turning) + (1 + extrapolation) * change);
     set_spin(i, S::velocity, S::spin, spin(i) + kick * change);
   }
 
-  /// At the very start there is no step before.
+  /// At the very start there is no step before: accelerations are expected to stay.
   void forget_before(int grains) {
     for (int i = 0; i < grains; ++i) {
-      set(i, S::before, acceleration(i));
-      if constexpr (Y.friction) set_spin(i, S::before, S::turning_before, turning(i));
+      set(i, S::expected, acceleration(i));
+      if constexpr (Y.friction) set_spin(i, S::expected, S::expected_turning, turning(i));
     }
   }
 
   void save(Archive& archive, int grains) const {
     put(archive, "md.acceleration", grains, S::acceleration, S::turning);
-    put(archive, "md.acceleration_before", grains, S::before, S::turning_before);
+    put(archive, "md.acceleration_expected", grains, S::expected, S::expected_turning);
   }
   void restore(const Archive& archive, const Bodies<Y>& bodies) {
     take(bodies);
     get_back(archive, "md.acceleration", bodies.grains(), S::acceleration, S::turning);
-    get_back(archive, "md.acceleration_before", bodies.grains(), S::before, S::turning_before);
+    get_back(archive, "md.acceleration_expected", bodies.grains(), S::expected, S::expected_turning);
   }
 
  private:
   double* at(int i) { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
   const double* at(int i) const { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
+  void set_constants(int i, const Bodies<Y>& bodies) {
+    double* state = at(i);
+    state[S::inverse_mass] = 1 / bodies.mass[i], state[S::mass] = bodies.mass[i];
+    if constexpr (D == 2) state[S::factors] = state[S::factors + 1] = 1 / bodies.mass[i];
+    if constexpr (Y.friction) {
+      const double radius = bodies.radius[i], inertia = bodies.inertia[i];
+      if constexpr (D == 2) {
+        state[S::factors + 2] = -radius / inertia, state[S::factors + 3] = 1 / inertia;
+        state[S::record_factors] = radius, state[S::record_factors + 1] = 1;
+      } else {
+        state[S::twist_factor] = -radius / inertia, state[S::inverse_inertia] = 1 / inertia, state[S::radius] = radius;
+      }
+    }
+  }
+
   Vec<D> get(int i, int group) const { return Eigen::Map<const Vec<D>>(at(i) + group); }
   void set(int i, int group, const Vec<D>& value) { Eigen::Map<Vec<D>>(at(i) + group) = value; }
   /// In 2D the rotation is the third of the group of x and y, in 3D a group of its own.

@@ -17,6 +17,7 @@
 #include "md/contacts.hpp"
 #include "md/energy.hpp"
 #include "md/grain_pass.hpp"
+#include "md/move_bound.hpp"
 #include "md/skin.hpp"
 
 namespace galet::md {
@@ -25,7 +26,8 @@ template <Layout Y>
 class SoftEngine final : public Engine<Y.dim> {
  public:
   static constexpr int D = Y.dim;
-  using C = RowColumns<Y>;
+  /// Steps after which the list is tested whatever the bound says: a position that is not finite escapes the bound.
+  static constexpr long longest_unchecked = 64;
 
   SoftEngine(const Scene& scene, const Derived& derived, const Sample<D>& sample)
       : materials_(derived.laws.materials),
@@ -46,10 +48,12 @@ class SoftEngine final : public Engine<Y.dim> {
     seen_.gradient = bodies_.cell.rate;
     seen_.grains.resize(bodies_.grains());
     for (int i = 0; i < bodies_.grains(); ++i) {
+      seen_.grains.put_position(i, bodies_.position[i]);
       seen_.grains.put_velocity(i, bodies_.velocity[i]);
       if constexpr (Y.friction) seen_.grains.put_spin(i, bodies_.spin[i], bodies_.radius[i]);
     }
     states_.take(bodies_);
+    equal_pairs_ = pairs_are_equal();
     mode_acceleration_.assign(bodies_.modes.size(), 0.0);
     list_.configure(range_, skin_.first());
     update_neighbours();
@@ -66,7 +70,12 @@ class SoftEngine final : public Engine<Y.dim> {
   const Profile& profile() const override { return profile_; }
 
   void advance(long count) override {
-    for (long k = 0; k < count; ++k) step();
+    for (long k = 0; k < count; ++k) {
+      if (k == 0 || !joined()) begin_step();
+      refresh_neighbours();
+      end_step(k + 1 < count && joined());
+    }
+    fetch_positions();
     states_.give(bodies_);
   }
 
@@ -105,10 +114,13 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
     contacts_.restore(archive, list_, bodies_.grains());
+    seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
+    equal_pairs_ = pairs_are_equal();
     set_row_constants();
     energy_account_.restore(archive);
     states_.restore(archive, bodies_);
     for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
+    list_bound_.forget();
     take_column(archive, "md.acceleration.modes", mode_acceleration_);
     take_column(archive, "md.acceleration_before.modes", mode_before_);
     dt_ = real_column(archive, "md.dt").at(0);
@@ -122,33 +134,54 @@ class SoftEngine final : public Engine<Y.dim> {
     return laws.size() == 1 && laws[0].cohesion == 0 && laws[0].tangential_damping_ratio == 0;
   }
 
-  void step() {
-    {
+  /// Whether the end of a step and the beginning of the next are one loop over the grains.
+  bool joined() const { return !bodies_.stress_driven() && !account_ && !relaxers_.on(); }
+
+  void begin_step() {
+    StageTimer timer(profile_, Stage::grains);
+    kick_modes();
+    list_bound_.moved(grain_pass_.drift(bodies_, states_, seen_, dt_), bodies_.cell.rate, dt_);
+    predict_modes();
+  }
+
+  void refresh_neighbours() {
+    StageTimer timer(profile_, Stage::neighbours);
+    ++list_age_;
+    bool expired = skin_.too_wide(list_.skin(), list_age_);
+    if (!expired && (list_bound_.exceeds(list_.allowance(bodies_.cell)) || !bodies_.planes.empty() ||
+                     list_age_ % longest_unchecked == 0)) {
+      fetch_positions();
+      expired = list_.expired(bodies_.position, bodies_.cell, bodies_.planes);
+      list_bound_.set(list_.largest_move());
+    }
+    if (expired) update_neighbours();
+  }
+
+  /// The contact pass and the end of the step; with `go_on` the beginning of the next one too.
+  void end_step(bool go_on) {
+    if (!go_on) {
+      evaluate(dt_);
+    } else {
+      evaluate_contacts(dt_, false);
       StageTimer timer(profile_, Stage::grains);
-      kick_modes();
-      grain_pass_.drift(bodies_, states_, seen_, dt_);
-      predict_modes();
+      const double fastest = grain_pass_.step(bodies_, states_, seen_, list_, contacts_, dt_);
+      list_bound_.moved(fastest, bodies_.cell.rate, dt_);
     }
-    {
-      StageTimer timer(profile_, Stage::neighbours);
-      ++list_age_;
-      if (skin_.too_wide(list_.skin(), list_age_) || list_.expired(bodies_.position, bodies_.cell, bodies_.planes))
-        update_neighbours();
-    }
-    evaluate(dt_);
     ++steps_;
+  }
+
+  PassSums<D> evaluate_contacts(double dt, bool virial_wanted) {
+    StageTimer timer(profile_, Stage::contacts);
+    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, virial_wanted};
+    const PassSums<D> sums = pass_.run(bodies_, seen_, law, contacts_);
+    if (steps_ % 128 == 0) check_stiffness();
+    return sums;
   }
 
   /// Forces, accelerations and the closing half kick. `dt`: time since the last evaluation, 0 at the start.
   void evaluate(double dt) {
     const bool virial_wanted = bodies_.stress_driven() || account_;
-    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, virial_wanted};
-    PassSums<D> sums;
-    {
-      StageTimer timer(profile_, Stage::contacts);
-      sums = pass_.run(bodies_, seen_, law, contacts_);
-      if (steps_ % 128 == 0) check_stiffness();
-    }
+    const PassSums<D> sums = evaluate_contacts(dt, virial_wanted);
     double relaxed = 0;
     Mat<D> kinetic;
     {
@@ -168,13 +201,19 @@ class SoftEngine final : public Engine<Y.dim> {
     energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxed}, dt);
   }
 
+  /// Positions live in the records while steps are taken.
+  void fetch_positions() {
+    for (int i = 0; i < bodies_.grains(); ++i) bodies_.position[i] = seen_.grains.position(i);
+  }
+
   /// Hertz contacts stiffen as they are pressed: beyond what the time step was derived for the run stops.
-  void check_stiffness() const {
+  void check_stiffness() {
     if (!kind_.hertz || !(stiffest_ > 0)) return;
+    fetch_positions();
     for (std::size_t row = 0; row < list_.size(); ++row) {
       if (!contacts_.touches(row)) continue;
       const double deflection = -frame_of(row).gap;
-      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.at(row, C::coefficient), deflection);
+      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.coefficient(row), deflection);
       if (!(stiffness > stiffest_)) continue;
       const PairColumns<D>& pairs = list_.pairs();
       throw RunError(
@@ -234,9 +273,12 @@ class SoftEngine final : public Engine<Y.dim> {
       list_.configure(range_, skin_.next(list_.skin(), list_age_, idle));
     }
     list_age_ = 0;
+    list_bound_.set(0);
+    fetch_positions();
     std::swap(contacts_, carried_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
     contacts_.carry(carried_, list_, bodies_.grains());
+    seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();
     // Building wraps the grains into the cell.
     for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
@@ -245,21 +287,31 @@ class SoftEngine final : public Engine<Y.dim> {
   /// What the laws need of each row's two grains.
   void set_row_constants() {
     const PairColumns<D>& pairs = list_.pairs();
+    const int grains = bodies_.grains();
     for (std::size_t row = 0; row < list_.size(); ++row) {
-      const int i = pairs.i[row], j = pairs.j[row], grains = bodies_.grains();
+      const int i = pairs.i[row], j = pairs.j[row];
+      const int other = j >= grains ? bodies_.plane_material[j - grains] : bodies_.material[j];
+      contacts_.block_of(row).law[row % block_rows] =
+          static_cast<std::uint8_t>(bodies_.material[i] * materials_ + other);
+    }
+    contacts_.set_constants(equal_pairs_, [&](std::size_t row) -> std::array<double, 3> {
+      const int i = pairs.i[row], j = pairs.j[row];
       const bool plane = j >= grains;
       const double mass = bodies_.mass[i], radius = bodies_.radius[i];
       const double reduced_mass = plane ? mass : mass * bodies_.mass[j] / (mass + bodies_.mass[j]);
       const double curvature = plane ? radius : reduced_radius(radius, bodies_.radius[j]);
-      const int other = plane ? bodies_.plane_material[j - grains] : bodies_.material[j];
-      const int law = bodies_.material[i] * materials_ + other;
-      contacts_.block_of(row).law[row % block_rows] = static_cast<std::uint8_t>(law);
-      const double coefficient = normal_coefficient(laws_[law], curvature);
-      contacts_.at(row, C::reach) = plane ? radius : radius + bodies_.radius[j];
-      contacts_.at(row, C::coefficient) = coefficient;
-      contacts_.at(row, C::critical) = critical_damping(kind_, coefficient, reduced_mass);
-      if constexpr (Y.friction) contacts_.at(row, C::inverse_reach) = 1 / contacts_.at(row, C::reach);
-    }
+      const double coefficient = normal_coefficient(laws_[contacts_.law(row)], curvature);
+      return {plane ? radius : radius + bodies_.radius[j], coefficient,
+              critical_damping(kind_, coefficient, reduced_mass)};
+    });
+  }
+
+  /// Whether all pairs have the same constants: one kind of grains, no planes.
+  bool pairs_are_equal() const {
+    if (!bodies_.planes.empty() || laws_.size() > 1) return false;
+    for (int i = 1; i < bodies_.grains(); ++i)
+      if (bodies_.radius[i] != bodies_.radius[0] || bodies_.mass[i] != bodies_.mass[0]) return false;
+    return true;
   }
 
   ContactFrame<D> frame_of(std::size_t row) const {
@@ -294,12 +346,14 @@ class SoftEngine final : public Engine<Y.dim> {
   std::vector<PairTerms<double>> terms_;
   Relaxers relaxers_;
   bool account_;
+  bool equal_pairs_ = false;
   LawKind kind_;
   double stiffest_ = 0;  ///< hertz: K_N that the time step allows; 0: any
   Skin skin_;
   double dt_;
   long steps_ = 0;
   long list_age_ = 0;  ///< steps since the neighbour list was built
+  MoveBound list_bound_;
 
   Bodies<Y> bodies_;
   Seen<Y> seen_;

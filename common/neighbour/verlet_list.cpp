@@ -55,6 +55,13 @@ void VerletList<D>::configure(double range, double skin) {
 }
 
 template <int D>
+double VerletList<D>::allowance(const Cell<D>& cell) const {
+  if (cell.box == box_reference_) return 0.5 * skin_;
+  const double shrink = std::min(0.0, least_singular_value<D>(Mat<D>(cell.box * box_reference_.inverse())) - 1);
+  return 0.5 * (skin_ + shrink * (2 * largest_radius_ + range_ + skin_));
+}
+
+template <int D>
 bool VerletList<D>::expired(std::span<const Vec<D>> position, const Cell<D>& cell, std::span<const Plane<D>> planes,
                             double reserve) const {
   if (builds_ == 0) return true;
@@ -64,13 +71,15 @@ bool VerletList<D>::expired(std::span<const Vec<D>> position, const Cell<D>& cel
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vec<D> affine = rigid_cell ? reference_[i] : Vec<D>(deformation * reference_[i]);
     const double moved = (position[i] - affine).squaredNorm();
-    if (moved != moved) return true;  // the build says which grain is lost
+    if (moved != moved) {  // the build says which grain is lost
+      largest_move_ = moved;
+      return true;
+    }
     largest = std::max(largest, moved);
     if (!planes.empty()) largest_true = std::max(largest_true, (position[i] - reference_[i]).squaredNorm());
   }
-  const double shrink = rigid_cell ? 0 : std::min(0.0, least_singular_value<D>(deformation) - 1);
-  const double slack = skin_ + shrink * (2 * largest_radius_ + range_ + skin_);
-  if (!(slack >= 2 * std::sqrt(largest) + reserve)) return true;
+  largest_move_ = std::sqrt(largest);
+  if (!(2 * allowance(cell) >= 2 * largest_move_ + reserve)) return true;
   double plane_moved = 0;
   for (std::size_t p = 0; p < planes.size(); ++p)
     plane_moved = std::max(plane_moved, (planes[p].point - plane_reference_[p]).norm());

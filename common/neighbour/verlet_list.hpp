@@ -48,6 +48,11 @@ class VerletList {
   bool expired(std::span<const Vec<D>> position, const Cell<D>& cell, std::span<const Plane<D>> planes,
                double reserve = 0) const;
 
+  /// Largest non-affine displacement |s_i| for which the list certainly holds in the cell (planes apart).
+  double allowance(const Cell<D>& cell) const;
+  /// The largest |s_i| that the last call of expired() has found; not a number where a position is not finite.
+  double largest_move() const { return largest_move_; }
+
   /// Wraps positions and box, and lists all pairs anew. Throws RunError, naming the grains, when a position is not
   /// finite, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane.
   void build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
@@ -94,6 +99,7 @@ class VerletList {
   double range_ = 0;
   double skin_ = 0;
   double largest_radius_ = 0;
+  mutable double largest_move_ = 0;
   long builds_ = 0;
 
   PairColumns<D> pairs_, old_pairs_;

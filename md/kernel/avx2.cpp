@@ -1,4 +1,4 @@
-// The kernels for processors with AVX2 (compiled with -mavx2 and nothing else in this file).
+// The kernels for processors with AVX2 and FMA (compiled with -mavx2 -mfma, and nothing else in this file).
 #include "md/kernel/grains.hpp"
 #include "md/kernel/pass.hpp"
 

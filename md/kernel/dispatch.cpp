@@ -17,7 +17,7 @@ namespace {
 
 bool has(Instructions set) {
 #ifdef GALET_AVX2
-  if (set == Instructions::avx2) return __builtin_cpu_supports("avx2") != 0;
+  if (set == Instructions::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
   return set == Instructions::scalar;
 }

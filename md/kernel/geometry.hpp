@@ -19,13 +19,21 @@ requires(Y.dim == 3) struct LaneTypes<Y, V> {
   using Spin = Space<V>;
 };
 
-/// W contacts. Spins that the layout has no use for are zero.
+/// Where the two grains of W contacts are, and what comes in the same group of their records.
 template <Layout Y, int W>
-struct Geometry {
+struct Place {
   using V = Lanes<W>;
-  typename LaneTypes<Y, V>::Vector normal;   ///< n, from i to j
+  typename LaneTypes<Y, V>::Vector normal;  ///< n, from i to j
+  V distance;                               ///< |b|
+  Plane2<V> centres;                        ///< 2D: relative velocity of the centres
+  V together_x;                             ///< 3D: first component of w_i + w_j
+};
+
+/// How W contacts move. Spins that the layout has no use for are zero.
+template <Layout Y, int W>
+struct Motion {
+  using V = Lanes<W>;
   typename LaneTypes<Y, V>::Vector centres;  ///< relative velocity of the centres
-  V distance;                                ///< |b|
   typename LaneTypes<Y, V>::Spin surface;    ///< R_i w_i + R_j w_j
   typename LaneTypes<Y, V>::Spin together;   ///< w_i + w_j (3D)
   typename LaneTypes<Y, V>::Spin relative;   ///< w_j - w_i (rolling)
@@ -37,20 +45,23 @@ struct Group {
   Lanes<W> component[4];
 };
 
+GALET_INLINE const double* at_bytes(const double* base, std::uint32_t bytes) {
+  return reinterpret_cast<const double*>(reinterpret_cast<const char*>(base) + bytes);
+}
+
 template <unsigned Minus>
-GALET_INLINE Group<Minus, 1> combine(const double* records, int size, int group, const int* i, const int* j, Lanes<1>) {
-  const double *from_i = records + static_cast<std::size_t>(*i) * size + 4 * group,
-               *from_j = records + static_cast<std::size_t>(*j) * size + 4 * group;
+GALET_INLINE Group<Minus, 1> combine(const double* records, int group, const std::uint32_t* i, const std::uint32_t* j,
+                                     Lanes<1>) {
+  const double *from_i = at_bytes(records, *i) + 4 * group, *from_j = at_bytes(records, *j) + 4 * group;
   Group<Minus, 1> result;
   for (int k = 0; k < 4; ++k) result.component[k] = (Minus >> k & 1) ? from_j[k] - from_i[k] : from_j[k] + from_i[k];
   return result;
 }
 template <unsigned Minus>
-GALET_INLINE Group<Minus, 1> combine_shifted(const PassView& view, int size, const RowBlock& block, int lane,
-                                             Lanes<1> width) {
-  Group<Minus, 1> result = combine<Minus>(view.records, size, 0, block.i + lane, block.j + lane, width);
+GALET_INLINE Group<Minus, 1> combine_shifted(const PassView& view, const RowBlock& block, int lane, Lanes<1> width) {
+  Group<Minus, 1> result = combine<Minus>(view.records, 0, block.i + lane, block.j + lane, width);
   for (int k = 0; k < 4; ++k)
-    result.component[k] = result.component[k] + Lanes<1>(view.shifts[4 * block.shift[lane] + k]);
+    result.component[k] = result.component[k] + Lanes<1>(at_bytes(view.shifts, block.shift[lane])[k]);
   return result;
 }
 
@@ -66,107 +77,87 @@ GALET_INLINE __m256d signed_sum(const double* from_i, const double* from_j) {
                        : _mm256_add_pd(j, _mm256_xor_pd(i, flip));
 }
 template <unsigned Minus>
-GALET_INLINE Group<Minus, 4> combine(const double* records, int size, int group, const int* i, const int* j, Lanes<4>) {
+GALET_INLINE Group<Minus, 4> combine(const double* records, int group, const std::uint32_t* i, const std::uint32_t* j,
+                                     Lanes<4>) {
   Group<Minus, 4> result;
   for (int k = 0; k < 4; ++k)
-    result.component[k].v = signed_sum<Minus>(records + static_cast<std::size_t>(i[k]) * size + 4 * group,
-                                              records + static_cast<std::size_t>(j[k]) * size + 4 * group);
+    result.component[k].v = signed_sum<Minus>(at_bytes(records, i[k]) + 4 * group, at_bytes(records, j[k]) + 4 * group);
   transpose(result.component[0], result.component[1], result.component[2], result.component[3]);
   return result;
 }
 template <unsigned Minus>
-GALET_INLINE Group<Minus, 4> combine_shifted(const PassView& view, int size, const RowBlock& block, int lane,
-                                             Lanes<4>) {
+GALET_INLINE Group<Minus, 4> combine_shifted(const PassView& view, const RowBlock& block, int lane, Lanes<4>) {
   Group<Minus, 4> result;
   for (int k = 0; k < 4; ++k)
-    result.component[k].v =
-        _mm256_add_pd(signed_sum<Minus>(view.records + static_cast<std::size_t>(block.i[lane + k]) * size,
-                                        view.records + static_cast<std::size_t>(block.j[lane + k]) * size),
-                      _mm256_load_pd(view.shifts + 4 * block.shift[lane + k]));
+    result.component[k].v = _mm256_add_pd(
+        signed_sum<Minus>(at_bytes(view.records, block.i[lane + k]), at_bytes(view.records, block.j[lane + k])),
+        _mm256_load_pd(at_bytes(view.shifts, block.shift[lane + k])));
   transpose(result.component[0], result.component[1], result.component[2], result.component[3]);
   return result;
 }
 
 #endif
 
+/// gradient x + y.
 template <class V>
-GALET_INLINE Plane2<V> affine(const double* gradient, const Plane2<V>& x) {
-  return {V(gradient[0]) * x.x + V(gradient[1]) * x.y, V(gradient[2]) * x.x + V(gradient[3]) * x.y};
+GALET_INLINE Plane2<V> affine(const double* gradient, const Plane2<V>& x, const Plane2<V>& y) {
+  return {madd(V(gradient[0]), x.x, madd(V(gradient[1]), x.y, y.x)),
+          madd(V(gradient[2]), x.x, madd(V(gradient[3]), x.y, y.y))};
 }
 template <class V>
-GALET_INLINE Space<V> affine(const double* gradient, const Space<V>& x) {
-  return {V(gradient[0]) * x.x + V(gradient[1]) * x.y + V(gradient[2]) * x.z,
-          V(gradient[3]) * x.x + V(gradient[4]) * x.y + V(gradient[5]) * x.z,
-          V(gradient[6]) * x.x + V(gradient[7]) * x.y + V(gradient[8]) * x.z};
+GALET_INLINE Space<V> affine(const double* gradient, const Space<V>& x, const Space<V>& y) {
+  return {madd(V(gradient[0]), x.x, madd(V(gradient[1]), x.y, madd(V(gradient[2]), x.z, y.x))),
+          madd(V(gradient[3]), x.x, madd(V(gradient[4]), x.y, madd(V(gradient[5]), x.z, y.y))),
+          madd(V(gradient[6]), x.x, madd(V(gradient[7]), x.y, madd(V(gradient[8]), x.z, y.z)))};
 }
 
-/// Pairs of grains, `lane` the first row of the block.
+/// `lane`: the first of the W rows in the block.
 template <Layout Y, int W>
-GALET_INLINE Geometry<Y, W> grain_geometry(const PassView& view, const RowBlock& block, int lane) {
+GALET_INLINE Place<Y, W> place_of(const PassView& view, const RowBlock& block, int lane) {
   using V = Lanes<W>;
-  constexpr int size = record_size(Y);
-  const V width{};
-  const int *i = block.i + lane, *j = block.j + lane;
-  Geometry<Y, W> result{};
   typename LaneTypes<Y, V>::Vector branch;
+  Place<Y, W> result{};
   if constexpr (Y.dim == 2) {
-    const auto motion = combine_shifted<0b1111>(view, size, block, lane, width);
-    branch = {motion.component[0], motion.component[1]};
-    result.centres = {motion.component[2], motion.component[3]};
-    if constexpr (Y.friction) {
-      const auto spins = combine<0b0010>(view.records, size, 1, i, j, width);
-      result.surface = spins.component[0], result.relative = spins.component[1];
-    }
+    const auto group = combine_shifted<0b1111>(view, block, lane, V{});
+    branch = {group.component[0], group.component[1]};
+    result.centres = {group.component[2], group.component[3]};
   } else {
-    const auto place = combine_shifted<0b0111>(view, size, block, lane, width);
-    const auto motion = combine<0b0111>(view.records, size, 1, i, j, width);
-    branch = {place.component[0], place.component[1], place.component[2]};
-    result.centres = {motion.component[0], motion.component[1], motion.component[2]};
-    if constexpr (Y.friction) {
-      const auto spins = combine<0>(view.records, size, 2, i, j, width);
-      result.surface = {spins.component[0], spins.component[1], spins.component[2]};
-      result.together = {place.component[3], motion.component[3], spins.component[3]};
-    }
-    if constexpr (Y.rolling) {
-      const auto spins = combine<0b0111>(view.records, size, 3, i, j, width);
-      result.relative = {spins.component[0], spins.component[1], spins.component[2]};
-    }
+    const auto group = combine_shifted<0b0111>(view, block, lane, V{});
+    branch = {group.component[0], group.component[1], group.component[2]};
+    result.together_x = group.component[3];
   }
-  result.distance = sqrt(squared(branch));
-  result.normal = V(1.0) / result.distance * branch;
-  if (view.deforming) result.centres = result.centres + affine(view.gradient, branch);
+  const V length_squared = squared(branch);
+  result.distance = sqrt(length_squared);
+  // 1 / r as r / r^2: the division does not wait for the root.
+  result.normal = result.distance * (V(1.0) / length_squared) * branch;
   return result;
 }
 
-/// A grain and a plane. The branch ends on the plane; the plane has no lever arm.
-template <Layout Y>
-GALET_INLINE Geometry<Y, 1> plane_geometry(const PassView& view, const RowBlock& block, int lane) {
-  using V = Lanes<1>;
-  const double* grain = view.records + static_cast<std::size_t>(block.i[lane]) * record_size(Y);
-  const PlaneRecord& plane = view.planes[block.j[lane] - view.first_plane];
-  Geometry<Y, 1> result{};
+template <Layout Y, int W>
+GALET_INLINE Motion<Y, W> motion_of(const PassView& view, const RowBlock& block, int lane, const Place<Y, W>& place) {
+  using V = Lanes<W>;
+  const std::uint32_t *i = block.i + lane, *j = block.j + lane;
+  Motion<Y, W> result{};
   if constexpr (Y.dim == 2) {
-    const Plane2<V> place{grain[0], grain[1]}, point{plane.point[0], plane.point[1]},
-        normal{plane.normal[0], plane.normal[1]};
-    result.distance = dot(place - point, normal);
-    result.normal = V(-1.0) * normal;
-    result.centres =
-        Plane2<V>{plane.velocity[0] - grain[2], plane.velocity[1] - grain[3]} - affine(view.gradient, place);
-    if constexpr (Y.friction) result.surface = grain[4], result.relative = -grain[5];
-  } else {
-    const Space<V> place{grain[0], grain[1], grain[2]}, point{plane.point[0], plane.point[1], plane.point[2]},
-        normal{plane.normal[0], plane.normal[1], plane.normal[2]};
-    result.distance = dot(place - point, normal);
-    result.normal = V(-1.0) * normal;
-    result.centres =
-        Space<V>{plane.velocity[0] - grain[4], plane.velocity[1] - grain[5], plane.velocity[2] - grain[6]} -
-        affine(view.gradient, place);
+    result.centres = place.centres;
     if constexpr (Y.friction) {
-      result.surface = {grain[8], grain[9], grain[10]};
-      result.together = {grain[3], grain[7], grain[11]};
+      const auto spins = combine<0b0010>(view.records, 1, i, j, V{});
+      result.surface = spins.component[0], result.relative = spins.component[1];
     }
-    if constexpr (Y.rolling) result.relative = {-grain[12], -grain[13], -grain[14]};
+  } else {
+    const auto motion = combine<0b0111>(view.records, 1, i, j, V{});
+    result.centres = {motion.component[0], motion.component[1], motion.component[2]};
+    if constexpr (Y.friction) {
+      const auto spins = combine<0>(view.records, 2, i, j, V{});
+      result.surface = {spins.component[0], spins.component[1], spins.component[2]};
+      result.together = {place.together_x, motion.component[3], spins.component[3]};
+    }
+    if constexpr (Y.rolling) {
+      const auto spins = combine<0b0111>(view.records, 3, i, j, V{});
+      result.relative = {spins.component[0], spins.component[1], spins.component[2]};
+    }
   }
+  if (view.deforming) result.centres = affine(view.gradient, place.distance * place.normal, result.centres);
   return result;
 }
 

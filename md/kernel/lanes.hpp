@@ -1,5 +1,6 @@
-// W doubles that are worked on at once. All widths give the same bits: every operation is the IEEE one (no fused
-// multiply-add, no approximate reciprocals), lane by lane.
+// W doubles that are worked on at once. All widths give the same bits: every operation is the IEEE one, lane by lane
+// (no approximate reciprocals), and products are fused with sums only where the source says so (`madd` and its kin),
+// never by the compiler.
 //
 // Only files that are compiled for one instruction set include this header (see dispatch.hpp): it holds inline code
 // that other processors may not have. For the same reason it includes nothing that emits functions of its own.
@@ -28,6 +29,12 @@ GALET_INLINE Mask<1> operator&(Mask<1> a, Mask<1> b) { return {a.on && b.on}; }
 GALET_INLINE Mask<1> operator|(Mask<1> a, Mask<1> b) { return {a.on || b.on}; }
 GALET_INLINE Mask<1> without(Mask<1> a, Mask<1> b) { return {a.on && !b.on}; }
 GALET_INLINE unsigned bits(Mask<1> a) { return a.on ? 1 : 0; }
+template <int W>
+GALET_INLINE Mask<W> mask_of(unsigned bits);
+template <>
+GALET_INLINE Mask<1> mask_of<1>(unsigned bits) {
+  return {(bits & 1) != 0};
+}
 
 template <>
 struct Lanes<1> {
@@ -42,6 +49,10 @@ GALET_INLINE Lanes<1> operator-(Lanes<1> a, Lanes<1> b) { return a.v - b.v; }
 GALET_INLINE Lanes<1> operator*(Lanes<1> a, Lanes<1> b) { return a.v * b.v; }
 GALET_INLINE Lanes<1> operator/(Lanes<1> a, Lanes<1> b) { return a.v / b.v; }
 GALET_INLINE Lanes<1> operator-(Lanes<1> a) { return -a.v; }
+/// a b + c, rounded once; likewise c - a b and a b - c.
+GALET_INLINE Lanes<1> madd(Lanes<1> a, Lanes<1> b, Lanes<1> c) { return __builtin_fma(a.v, b.v, c.v); }
+GALET_INLINE Lanes<1> nmadd(Lanes<1> a, Lanes<1> b, Lanes<1> c) { return __builtin_fma(-a.v, b.v, c.v); }
+GALET_INLINE Lanes<1> msub(Lanes<1> a, Lanes<1> b, Lanes<1> c) { return __builtin_fma(a.v, b.v, -c.v); }
 GALET_INLINE Mask<1> operator<(Lanes<1> a, Lanes<1> b) { return {a.v < b.v}; }
 GALET_INLINE Lanes<1> sqrt(Lanes<1> a) { return __builtin_sqrt(a.v); }
 /// The larger one; b where a is not a number.
@@ -63,6 +74,12 @@ GALET_INLINE Mask<4> without(Mask<4> a, Mask<4> b) { return {_mm256_andnot_pd(b.
 GALET_INLINE unsigned bits(Mask<4> a) { return static_cast<unsigned>(_mm256_movemask_pd(a.on)); }
 
 template <>
+GALET_INLINE Mask<4> mask_of<4>(unsigned bits) {
+  const __m256i lanes = _mm256_set_epi64x(8, 4, 2, 1);
+  return {_mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), lanes), lanes))};
+}
+
+template <>
 struct Lanes<4> {
   __m256d v;
   GALET_INLINE Lanes() = default;
@@ -76,6 +93,9 @@ GALET_INLINE Lanes<4> operator-(Lanes<4> a, Lanes<4> b) { return _mm256_sub_pd(a
 GALET_INLINE Lanes<4> operator*(Lanes<4> a, Lanes<4> b) { return _mm256_mul_pd(a.v, b.v); }
 GALET_INLINE Lanes<4> operator/(Lanes<4> a, Lanes<4> b) { return _mm256_div_pd(a.v, b.v); }
 GALET_INLINE Lanes<4> operator-(Lanes<4> a) { return _mm256_xor_pd(a.v, _mm256_set1_pd(-0.0)); }
+GALET_INLINE Lanes<4> madd(Lanes<4> a, Lanes<4> b, Lanes<4> c) { return _mm256_fmadd_pd(a.v, b.v, c.v); }
+GALET_INLINE Lanes<4> nmadd(Lanes<4> a, Lanes<4> b, Lanes<4> c) { return _mm256_fnmadd_pd(a.v, b.v, c.v); }
+GALET_INLINE Lanes<4> msub(Lanes<4> a, Lanes<4> b, Lanes<4> c) { return _mm256_fmsub_pd(a.v, b.v, c.v); }
 GALET_INLINE Mask<4> operator<(Lanes<4> a, Lanes<4> b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ)}; }
 GALET_INLINE Lanes<4> sqrt(Lanes<4> a) { return _mm256_sqrt_pd(a.v); }
 GALET_INLINE Lanes<4> max(Lanes<4> a, Lanes<4> b) { return _mm256_max_pd(a.v, b.v); }
@@ -90,7 +110,6 @@ GALET_INLINE void transpose(Lanes<4>& a, Lanes<4>& b, Lanes<4>& c, Lanes<4>& d) 
   a = _mm256_permute2f128_pd(low_ab, low_cd, 0x20), c = _mm256_permute2f128_pd(low_ab, low_cd, 0x31);
   b = _mm256_permute2f128_pd(high_ab, high_cd, 0x20), d = _mm256_permute2f128_pd(high_ab, high_cd, 0x31);
 }
-
 #endif
 
 template <int W>
@@ -131,7 +150,12 @@ GALET_INLINE Plane2<V> operator*(V s, const Plane2<V>& a) {
 }
 template <class V>
 GALET_INLINE V dot(const Plane2<V>& a, const Plane2<V>& b) {
-  return a.x * b.x + a.y * b.y;
+  return madd(a.x, b.x, a.y * b.y);
+}
+/// s a + b; likewise b - s a.
+template <class V>
+GALET_INLINE Plane2<V> madd(V s, const Plane2<V>& a, const Plane2<V>& b) {
+  return {madd(s, a.x, b.x), madd(s, a.y, b.y)};
 }
 template <class V>
 GALET_INLINE Space<V> operator+(const Space<V>& a, const Space<V>& b) {
@@ -147,11 +171,25 @@ GALET_INLINE Space<V> operator*(V s, const Space<V>& a) {
 }
 template <class V>
 GALET_INLINE V dot(const Space<V>& a, const Space<V>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
+}
+template <class V>
+GALET_INLINE Space<V> madd(V s, const Space<V>& a, const Space<V>& b) {
+  return {madd(s, a.x, b.x), madd(s, a.y, b.y), madd(s, a.z, b.z)};
+}
+template <class V>
+GALET_INLINE Space<V> nmadd(V s, const Space<V>& a, const Space<V>& b) {
+  return {nmadd(s, a.x, b.x), nmadd(s, a.y, b.y), nmadd(s, a.z, b.z)};
 }
 template <class V>
 GALET_INLINE Space<V> cross(const Space<V>& a, const Space<V>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {msub(a.y, b.z, a.z * b.y), msub(a.z, b.x, a.x * b.z), msub(a.x, b.y, a.y * b.x)};
+}
+/// c + a x b.
+template <class V>
+GALET_INLINE Space<V> madd_cross(const Space<V>& a, const Space<V>& b, const Space<V>& c) {
+  return {madd(a.y, b.z, nmadd(a.z, b.y, c.x)), madd(a.z, b.x, nmadd(a.x, b.z, c.y)),
+          madd(a.x, b.y, nmadd(a.y, b.x, c.z))};
 }
 template <int W>
 GALET_INLINE Lanes<W> dot(Lanes<W> a, Lanes<W> b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "md/kernel/geometry.hpp"
+#include "md/laws/crossing.hpp"
 #include "md/laws/normal.hpp"
 #include "md/laws/spring.hpp"
 
@@ -11,6 +12,10 @@ namespace galet::md {
 template <int W>
 GALET_INLINE void add_lanes(double* sum, int lane, Lanes<W> value) {
   (Lanes<W>::load(sum + lane) + value).store(sum + lane);
+}
+template <int W>
+GALET_INLINE void add_product(double* sum, int lane, Lanes<W> a, Lanes<W> b) {
+  madd(a, b, Lanes<W>::load(sum + lane)).store(sum + lane);
 }
 
 GALET_INLINE void write_out(double* out, const Plane2<Lanes<1>>& force) { force.x.store(out), force.y.store(out + 1); }
@@ -68,39 +73,51 @@ class Rows {
         common_(same_terms<W>(view.terms[0])) {}
 
   /// The W rows from `lane` on of a block.
-  GALET_INLINE void evaluate(const Geometry<Y, W>& at, std::size_t index, int lane) {
+  GALET_INLINE void evaluate(const Place<Y, W>& place, std::size_t index, int lane) {
     RowBlock& block = view_.blocks[index];
+    const Pair at{place, motion_of<Y, W>(view_, block, lane, place)};
+    const RowConstants& constants = view_.constants[index * view_.constants_stride];
     double* columns = view_.columns + (index * C::count) * block_rows + lane;
     double* out = view_.out + (index * block_rows + lane) * out_size(Y);
     const PairTerms<V> terms = K.general && view_.laws > 1 ? terms_of_rows<W>(view_, block, lane) : common_;
-    const V deflection = V::load(columns + C::reach * block_rows) - at.distance;
+    const V deflection = V::load(constants.reach + lane) - at.distance;
     const M touching = V(0.0) < deflection;
     const V depth = max(deflection, V(0.0)), opening = dot(at.normal, at.centres);
-    const V coefficient = V::load(columns + C::coefficient * block_rows);
-    const V critical = V::load(columns + C::critical * block_rows);
+    const V coefficient = V::load(constants.coefficient + lane), critical = V::load(constants.critical + lane);
     const NormalForce<V> normal = normal_force<K>(view_.kind, terms, coefficient, critical, depth, opening);
     V along = only(touching, normal.force);
-    note_states(block, lane, touching, &RowBlock::touching);
+    unsigned crossing = note_states(block, lane, touching, &RowBlock::touching);
+    if (!view_.stepping) crossing = 0;
+    Crossing cross{};
+    if (__builtin_expect(crossing, 0)) {
+      cross = cross_over(touching, crossing, terms, coefficient, critical, deflection, opening, normal.bound, at.normal,
+                         out);
+      along = select(cross.crosses, along + cross.normal, along);
+    }
     if (K.general && view_.range > 0) {
       const M attracted = without((V(0.0) - deflection) < terms.range, touching);
-      along = select(attracted, distant_force(terms, V(0.0) - deflection), along);
+      along = select(attracted, along + distant_force(terms, V(0.0) - deflection), along);
       note_states(block, lane, attracted, &RowBlock::attracted);
     }
     if constexpr (K.account) {
       // The conservative part is what is left without damping.
       const V conservative = normal_force<K>(view_.kind, terms, coefficient, V(0.0), depth, V(0.0)).force;
-      add_lanes(sums_.normal_viscous, lane, only(touching, (conservative - normal.force) * opening));
+      add_lanes(sums_.normal_viscous, lane, only(touching, (conservative - normal.force) * opening) + cross.viscous);
     }
     Vector force = along * at.normal;
     if constexpr (Y.friction) {
       const Ahead ahead = look_ahead(normal, depth, opening);
       const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
       Spin torque{};
-      if constexpr (Y.rolling) torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before);
-      const V stretch = at.distance * V::load(columns + C::inverse_reach * block_rows);
-      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, opening, stretch, force, torque, out);
+      if constexpr (Y.rolling) {
+        torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before, cross);
+        if (__builtin_expect(cross.any, 0)) torque = select(cross.ends, cross.torque, torque);
+      }
+      const V stretch = at.distance * V::load(constants.inverse_reach + lane);
+      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, opening, stretch, force, torque, cross,
+            out);
       if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
-      if constexpr (Y.dim == 3) store(only(touching, at.normal), columns + C::normal * block_rows);
+      if constexpr (Y.dim == 3) store(at.normal, columns + C::normal * block_rows);
     } else if constexpr (Y.dim == 2) {
       write_out(out, force);
     } else {
@@ -110,21 +127,68 @@ class Rows {
   }
 
  private:
+  struct Pair : Place<Y, W>, Motion<Y, W> {
+    using Motion<Y, W>::centres;
+  };
+
   /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
   struct Ahead {
     V bound, softening;
   };
 
+  /// Contacts that have begun or ended since the last step (laws/crossing.hpp).
+  struct Crossing : Crossings<V> {
+    bool any;
+    M crosses, begins, ends;
+    Vector sliding;  ///< end: tangential force (with the present normal, so that angular momentum is conserved)
+    Spin torque;     ///< end: rolling and pivoting torque
+  };
+
+  GALET_INLINE Crossing cross_over(M touching, unsigned crossing, const PairTerms<V>& terms, V coefficient, V critical,
+                                   V deflection, V opening, V bound, const Vector& normal, const double* out) const {
+    Crossing result{};
+    result.any = true;
+    result.crosses = mask_of<W>(crossing), result.begins = touching & result.crosses;
+    const M ends = result.ends = without(result.crosses, touching);
+    static_cast<Crossings<V>&>(result) = crossings<V, M>(view_.kind, terms, coefficient, critical, deflection, opening,
+                                                         bound, half_before_ + half_before_, ends);
+    result.viscous = only(result.crosses, result.viscous);
+    const V share = only(ends, result.last);
+    const auto last = [&](int component) {
+      alignas(64) double value[W];
+      for (int k = 0; k < W; ++k) value[k] = out[k * out_size(Y) + component];
+      return share * V::load(value);
+    };
+    Vector force;
+    if constexpr (Y.dim == 2)
+      force = {last(0), last(1)};
+    else
+      force = {last(0), last(1), last(2)};
+    const V along = dot(force, normal);
+    result.normal = result.normal + along;
+    if constexpr (Y.friction) {
+      // What the turn of the normal has put into the tangential part is no friction: Coulomb's bound takes it out.
+      const Vector tangential = force - along * normal;
+      const V bound = terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
+      result.sliding = min(max(bound, -bound) / max(length, V(1e-300)), V(1.0)) * tangential;
+    }
+    if constexpr (Y.rolling && Y.dim == 2) result.torque = last(3);
+    if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(8), last(9), last(10)};
+    return result;
+  }
+
   GALET_INLINE bool varying() const { return K.general ? view_.kind.hertz : K.hertz; }
 
-  GALET_INLINE static void note_states(RowBlock& block, int lane, M mask, std::uint8_t RowBlock::*state) {
-    const unsigned kept = (1u << lane) - 1;  // rows come in ascending order
-    block.*state = static_cast<std::uint8_t>((block.*state & kept) | bits(mask) << lane);
+  /// Returns the bits that change.
+  GALET_INLINE static unsigned note_states(RowBlock& block, int lane, M mask, std::uint8_t RowBlock::*state) {
+    const unsigned change = ((block.*state >> lane) ^ bits(mask)) & ((1u << W) - 1);
+    block.*state = static_cast<std::uint8_t>(block.*state ^ (change << lane));
+    return change;
   }
 
   GALET_INLINE Ahead look_ahead(const NormalForce<V>& normal, V depth, V opening) const {
     const V moved = opening * half_after_;
-    Ahead ahead{max(normal.bound - normal.stiffness * moved, V(0.0)), V(1.0)};
+    Ahead ahead{max(nmadd(normal.stiffness, moved, normal.bound), V(0.0)), V(1.0)};
     if (varying()) ahead.softening = select(V(0.0) < opening, sqrt(max(V(1.0) - moved / depth, V(0.01))), V(1.0));
     return ahead;
   }
@@ -140,12 +204,13 @@ class Rows {
 
   /// A spring of the row's columns, brought from the last step's frame and stiffness to the present ones.
   template <class Value>
-  GALET_INLINE Value carried_spring(const double* column, const Geometry<Y, W>& at, const double* columns, V factor,
+  GALET_INLINE Value carried_spring(const double* column, const Pair& at, const double* columns, V factor,
                                     V stiffness_before, const NormalForce<V>& normal, Losses<V>& losses) const {
     Value spring = load(column, Value{});
     if constexpr (Y.dim == 3 && sizeof(Value) == sizeof(Space<V>)) {
+      // The twist comes first: it doesn't wait for the new normal.
       const Space<V> before = load(columns + C::normal * block_rows, Space<V>{});
-      spring = transport(spring, before, at.normal, half_before_ * at.together);
+      spring = carried(twisted(spring, before, at.together, half_before_), before, at.normal);
     }
     if (varying())
       adapt_spring<K>(factor * stiffness_before, factor * normal.stiffness, half_before_ + half_after_, spring, losses);
@@ -168,12 +233,14 @@ class Rows {
 
   /// One spring from load to store; returns its force.
   template <class Value>
-  GALET_INLINE Value spring(double* column, const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
+  GALET_INLINE Value spring(double* column, const Pair& at, const NormalForce<V>& normal, const Ahead& ahead,
                             const double* columns, M touching, V stiffness_before, V factor, V reach, V viscosity,
-                            bool total, const Value& rate, double (*sums)[block_rows], int lane) {
+                            bool total, const Value& rate, const Crossing& cross, double (*sums)[block_rows],
+                            int lane) {
     Losses<V> losses;
     const Value before = load(column, Value{});
     Value elongation = carried_spring<Value>(column, at, columns, factor, stiffness_before, normal, losses);
+    if (__builtin_expect(cross.any, 0)) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
     const SpringTerms<V> law{factor * normal.stiffness,
                              reach * normal.bound,
                              reach * ahead.bound,
@@ -183,7 +250,9 @@ class Rows {
                              half_before_,
                              half_after_};
     Losses<V> sliding;
-    const Value force = spring_force<K>(touching, law, rate, elongation, sliding);
+    M slides;
+    Value force = spring_force<K>(touching, law, rate, elongation, slides, sliding);
+    if (__builtin_expect(cross.any, 0)) force = begun(cross, slides, force, viscosity, rate, sliding);
     if constexpr (K.account) {
       losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
       const V stiffness = varying() ? stiffness_before : normal.stiffness;
@@ -196,26 +265,45 @@ class Rows {
     return only(touching, force);
   }
 
-  GALET_INLINE void slide(const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
-                          const PairTerms<V>& terms, double* columns, int lane, M touching, V stiffness_before,
-                          V opening, V stretch, Vector& force, const Spin& torque, double* out) {
+  /// The force of springs that have begun to act within the step.
+  template <class Value>
+  GALET_INLINE static Value begun(const Crossing& cross, M slides, const Value& force, V viscosity, const Value& rate,
+                                  Losses<V>& losses) {
+    const V factor = select(slides, cross.sliders, cross.springs);
+    Value corrected = factor * force;
+    if constexpr (K.general) {
+      // A dashpot beside a spring that sticks: its force jumps.
+      const V jump = select(slides, V(0.0), viscosity);
+      corrected = corrected + (cross.jump - factor + V(1.0)) * jump * rate;
+      losses.viscous =
+          select(cross.begins, select(slides, factor, V(1.0) + cross.jump) * losses.viscous, losses.viscous);
+      losses.plastic = select(cross.begins, factor * losses.plastic, losses.plastic);
+    }
+    return select(cross.begins, corrected, force);
+  }
+
+  GALET_INLINE void slide(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
+                          double* columns, int lane, M touching, V stiffness_before, V opening, V stretch,
+                          Vector& force, const Spin& torque, const Crossing& cross, double* out) {
     double* column = columns + C::spring * block_rows;
     const V viscosity = terms.tangential_viscosity * normal.critical;
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent{-at.normal.y, at.normal.x};
-      const V rate = dot(tangent, at.centres) - stretch * at.surface;
-      const V tangential =
-          -spring<V>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
-                     terms.friction, viscosity, view_.kind.total, rate, sums_.sliding, lane);
-      force = force + tangential * tangent;
+      const V rate = nmadd(stretch, at.surface, dot(tangent, at.centres));
+      V tangential = -spring<V>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
+                                terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
+      if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
+      force = madd(tangential, tangent, force);
       write_out(out, force.x, force.y, stretch * tangential, torque, out_size(Y));
     } else {
-      const Space<V> rate = at.centres - opening * at.normal - stretch * cross(at.surface, at.normal);
-      const Space<V> tangential = V(-1.0) * spring<Space<V>>(column, at, normal, ahead, columns, touching,
-                                                             stiffness_before, terms.tangential_ratio, terms.friction,
-                                                             viscosity, view_.kind.total, rate, sums_.sliding, lane);
-      force = force + tangential;
-      const Space<V> twist = stretch * cross(at.normal, tangential);
+      const Space<V> arm = stretch * at.normal;
+      const Space<V> rate = madd_cross(arm, at.surface, nmadd(opening, at.normal, at.centres));
+      Space<V> resisting =
+          spring<Space<V>>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
+                           terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
+      if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
+      force = force - resisting;
+      const Space<V> twist = galet::md::cross(resisting, arm);
       write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
       write_out(out + 4, twist.x, twist.y, twist.z, V(0.0), out_size(Y));
       if constexpr (Y.rolling) write_out(out + 8, torque.x, torque.y, torque.z, V(0.0), out_size(Y));
@@ -223,35 +311,35 @@ class Rows {
   }
 
   /// Rolling and pivoting torque on j, from the relative rotation w_j - w_i.
-  GALET_INLINE Spin roll(const Geometry<Y, W>& at, const NormalForce<V>& normal, const Ahead& ahead,
-                         const PairTerms<V>& terms, double* columns, int lane, M touching, V stiffness_before) {
+  GALET_INLINE Spin roll(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
+                         double* columns, int lane, M touching, V stiffness_before, const Crossing& cross) {
     double* column = columns + C::rolling * block_rows;
     const M rolls = touching & (V(0.0) < terms.rolling_friction);
     if constexpr (Y.dim == 2) {
       return -spring<V>(column, at, normal, ahead, columns, rolls, stiffness_before, terms.rolling_stiffness,
-                        terms.rolling_friction, V(0.0), false, at.relative, sums_.rolling, lane);
+                        terms.rolling_friction, V(0.0), false, at.relative, cross, sums_.rolling, lane);
     } else {
       const V about = dot(at.relative, at.normal);
-      const Space<V> rolling =
-          spring<Space<V>>(column, at, normal, ahead, columns, rolls, stiffness_before, terms.rolling_stiffness,
-                           terms.rolling_friction, V(0.0), false, at.relative - about * at.normal, sums_.rolling, lane);
+      const Space<V> rolling = spring<Space<V>>(column, at, normal, ahead, columns, rolls, stiffness_before,
+                                                terms.rolling_stiffness, terms.rolling_friction, V(0.0), false,
+                                                nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane);
       const M pivots = touching & (V(0.0) < terms.pivoting_friction);
-      const V pivoting =
-          spring<V>(columns + C::pivoting * block_rows, at, normal, ahead, columns, pivots, stiffness_before,
-                    terms.pivoting_stiffness, terms.pivoting_friction, V(0.0), false, about, sums_.pivoting, lane);
-      return V(-1.0) * (rolling + pivoting * at.normal);
+      const V pivoting = spring<V>(columns + C::pivoting * block_rows, at, normal, ahead, columns, pivots,
+                                   stiffness_before, terms.pivoting_stiffness, terms.pivoting_friction, V(0.0), false,
+                                   about, cross, sums_.pivoting, lane);
+      return V(-1.0) * madd(pivoting, at.normal, rolling);
     }
   }
 
   GALET_INLINE void add_virial(const Plane2<V>& force, const Plane2<V>& branch, int lane) {
     const V f[2] = {force.x, force.y}, b[2] = {branch.x, branch.y};
     for (int a = 0; a < 2; ++a)
-      for (int c = 0; c < 2; ++c) add_lanes(sums_.virial[2 * a + c], lane, f[a] * b[c]);
+      for (int c = 0; c < 2; ++c) add_product(sums_.virial[2 * a + c], lane, f[a], b[c]);
   }
   GALET_INLINE void add_virial(const Space<V>& force, const Space<V>& branch, int lane) {
     const V f[3] = {force.x, force.y, force.z}, b[3] = {branch.x, branch.y, branch.z};
     for (int a = 0; a < 3; ++a)
-      for (int c = 0; c < 3; ++c) add_lanes(sums_.virial[3 * a + c], lane, f[a] * b[c]);
+      for (int c = 0; c < 3; ++c) add_product(sums_.virial[3 * a + c], lane, f[a], b[c]);
   }
 
   const PassView& view_;

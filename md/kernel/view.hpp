@@ -6,8 +6,11 @@
 //     2D                x y vx vy | R w, w, 0, 0                 64 B
 //     3D frictionless   x y z 0 | vx vy vz 0                     64 B
 //     3D                x y z wx | vx vy vz wy | R wx, R wy, R wz, wz | wx wy wz 0   128 B (the last 32 for rolling)
-//     after the grains come two records of points at rest, a unit apart, for rows that only fill a block
-//   rows      blocks of 8; a block holds indices (RowBlock) and one cache line of doubles per column (RowColumns)
+//     after the grains come two records of points at rest, far apart, for rows that only fill a block; then one for
+//     each row of a grain and a plane: the point of the plane next to the grain, with the velocity of the plane there
+//     and no spin. So kernels know pairs of records and nothing of planes.
+//   rows      blocks of 8; a block holds indices (RowBlock), constants of its pairs (RowConstants; one block of them
+//             serves all rows where the pairs are equal) and one cache line of doubles per column (RowColumns)
 //   out       per row what the contact does to its grains
 //     2D frictionless   Fx Fy                   2D   Fx Fy twist torque
 //     3D frictionless   F 0                     3D   F 0 | twist 0 (| torque 0 with rolling)
@@ -33,53 +36,58 @@ constexpr int out_size(Layout y) {
   return y.rolling ? 12 : y.friction ? 8 : 4;
 }
 
-/// Where each quantity of a row lies among the columns of its block.
+/// What the laws need of the two grains of each row; does not change while the list holds.
+struct alignas(64) RowConstants {
+  double reach[block_rows];          ///< R_i + R_j; grain and plane: R_i
+  double coefficient[block_rows];    ///< see laws/terms.hpp
+  double critical[block_rows];       ///< see laws/terms.hpp
+  double inverse_reach[block_rows];  ///< 1 / reach
+};
+
+/// Where each quantity that a row remembers lies among the columns of its block.
 template <Layout Y>
 struct RowColumns {
   static constexpr int vector = Y.dim == 3 ? 3 : 1;                // components of a spring
-  static constexpr int reach = 0;                                  ///< R_i + R_j; negative for rows that fill a block
-  static constexpr int coefficient = 1, critical = 2;              ///< see laws/terms.hpp
-  static constexpr int inverse_reach = 3;                          ///< 1 / (R_i + R_j); grain and plane: 1 / R_i
-  static constexpr int spring = 4;                                 ///< stored elongation, see laws/spring.hpp
+  static constexpr int spring = 0;                                 ///< stored elongation, see laws/spring.hpp
   static constexpr int normal = spring + vector;                   ///< 3D: n when the springs were last updated
   static constexpr int stiffness = normal + (Y.dim == 3 ? 3 : 0);  ///< K_N at the last step; hertz only
   static constexpr int rolling = stiffness + 1;                    ///< stored rotation of the rolling spring
   static constexpr int pivoting = rolling + vector;                ///< 3D: the same about the normal
-  static constexpr int count = !Y.friction ? 3 : !Y.rolling ? rolling : pivoting + (Y.dim == 3 ? 1 : 0);
+  static constexpr int count = !Y.friction ? 0 : !Y.rolling ? rolling : pivoting + (Y.dim == 3 ? 1 : 0);
 };
+
+/// Rows that only fill a block refer to the two records after the grains, `filler_distance` apart: never in contact.
+inline constexpr double filler_distance = 1e100;
 
 struct alignas(64) RowBlock {
-  int i[block_rows], j[block_rows];  ///< records
-  std::uint16_t shift[block_rows];   ///< image of j: index into the table of lattice vectors
-  std::uint8_t law[block_rows];      ///< index of the pair of materials
+  std::uint32_t i[block_rows], j[block_rows];  ///< where the two records begin, in bytes
+  std::uint32_t shift[block_rows];             ///< image of j: where its lattice vector begins in the table, in bytes
+  std::uint8_t law[block_rows];                ///< index of the pair of materials
   std::uint8_t touching, attracted;  ///< bit k: the state of row k (attracted: across a gap, by a cohesion of range D0)
-  std::uint8_t planes;               ///< bit k: j is a plane, counted from `first_plane`
 };
 
-/// A plane, and its motion.
-struct PlaneRecord {
-  double point[3], normal[3], velocity[3];
-};
+/// Grains whose records can be addressed by RowBlock.
+constexpr std::size_t most_grains(Layout y) { return (std::size_t{1} << 32) / (sizeof(double) * record_size(y)) - 2; }
 
 /// Sums over rows, eight lanes each, added in a fixed order at the end of a chunk.
 struct alignas(64) LaneSums {
   double virial[9][block_rows];  ///< sum of F (x) b, row by row
   double normal_viscous[block_rows];
   double sliding[3][block_rows], rolling[3][block_rows], pivoting[3][block_rows];  ///< viscous, plastic, unloading
-  double plane_power[block_rows];                                                  ///< of moving planes on the grains
 };
 
 struct PassView {
   const double* records;
   const double* shifts;  ///< 4 doubles each
-  const PlaneRecord* planes;
-  int first_plane;  ///< value of j for plane 0
   RowBlock* blocks;
+  const RowConstants* constants;
+  std::size_t constants_stride;  ///< 1, or 0 where one block of constants serves all
   double* columns;
   double* out;
   double gradient[9];  ///< L, row by row
   bool deforming;      ///< L is not zero
   bool virial;         ///< whether it is wanted
+  bool stepping;       ///< whether a step led here (not at the very start)
   double half_before;  ///< half the time since the last pass (0 at the very start)
   double half_after;   ///< half the time to the next one
   double range;        ///< largest D0
@@ -95,16 +103,26 @@ using PassFunction = void (*)(const PassView&, std::size_t begin, std::size_t en
 /// (md/grain_pass.hpp).
 inline constexpr double extrapolation = 0.5;
 
-/// Where each quantity of a grain's state lies; groups of four doubles.
-///   2D   vx vy w m | ax ay dw/dt I | (the same a step ago) R                     96 B
-///   3D   v m | a - | (a step ago) -      with friction also   w I | dw/dt R | (a step ago) -       96 B or 192 B
+/// Where each quantity of a grain's state lies; groups of four doubles, whose fourth (c) is a constant of the grain.
+///   2D   vx vy w c | ax ay dw/dt c | factors | expected accelerations c | record factors     160 B (frictionless 128
+///   B)
+///        factors of the rows Fx Fy twist torque: 1/m, 1/m, -R/I, 1/I;  of w in the record: R, 1, 0, 0
+///   3D   v c | a c | expected c        with friction also   w c | dw/dt c | expected c       96 B or 192 B
+/// `expected`: accelerations extrapolated to the next step; read only where a step begins apart from the last one's
+/// end.
 template <Layout Y>
 struct StateGroups {
-  static constexpr int velocity = 0, acceleration = 4, before = 8;
-  static constexpr int spin = 12, turning = 16, turning_before = 20;  ///< 3D with friction
-  static constexpr int mass = 3, inertia = Y.dim == 2 ? 7 : 15, radius = Y.dim == 2 ? 11 : 19;
-  static constexpr int size = Y.dim == 3 && Y.friction ? 24 : 12;
+  static constexpr int velocity = 0, acceleration = 4;
+  static constexpr int factors = 8, record_factors = 16;  ///< 2D
+  static constexpr int expected = Y.dim == 2 ? 12 : 8;
+  static constexpr int spin = 12, turning = 16, expected_turning = 20;  ///< 3D with friction
+  static constexpr int inverse_mass = 3, mass = 7;
+  static constexpr int radius = 19, twist_factor = 15, inverse_inertia = 23;  ///< 3D with friction; twist: -R/I
+  static constexpr int size = Y.dim == 2 ? (Y.friction ? 20 : 16) : (Y.friction ? 24 : 12);
 };
+
+/// Slots of a grain in GrainView::slots.
+inline constexpr int slots_per_grain = 9;
 
 /// What the per-grain work reads and writes. Matrices are columns of four.
 struct GrainView {
@@ -114,10 +132,12 @@ struct GrainView {
   alignas(32) double step[3][4];
   double* records;
   double* state;
-  double* position;  ///< dim doubles per grain
   const double* out;
-  const int* slots;  ///< 8 per grain: 4 of its rows as second member, 4 as first; a row of zeros where it has fewer
+  /// 9 per grain: 4 of its rows as second member, 4 as first, a row of zeros where it has fewer; then whether it has
+  /// more
+  const int* slots;
   const int *first, *second, *rows_of_second;  ///< of the neighbour list
+  std::size_t count;                           ///< grains
   double kick;                                 ///< dt/2 that ends a step (0 at the very start)
   double half;                                 ///< dt/2 that begins one
   bool deforming;
@@ -125,9 +145,12 @@ struct GrainView {
 };
 
 struct GrainFunctions {
-  /// Accelerations and the closing half kick; adds to the columns of the sum of m v (x) v.
+  /// End of a step: accelerations and the closing half kick; adds to the columns of the sum of m v (x) v.
   void (*gather)(const GrainView&, std::size_t begin, std::size_t end, double (&kinetic)[3][4]);
-  void (*drift)(const GrainView&, std::size_t begin, std::size_t end);
+  /// Beginning of a step; raises `fastest` to the squares of the half-step velocities, component by component.
+  void (*drift)(const GrainView&, std::size_t begin, std::size_t end, double (&fastest)[4]);
+  /// Both.
+  void (*step)(const GrainView&, std::size_t begin, std::size_t end, double (&fastest)[4]);
 };
 
 }  // namespace galet::md

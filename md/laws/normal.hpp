@@ -36,9 +36,10 @@ GALET_INLINE NormalForce<V> normal_force(const LawKind& kind, const PairTerms<V>
     result.stiffness = V(1.5) * coefficient * root;
     result.critical = critical * sqrt(root);
   }
-  V repulsion = elastic - law.damping * result.critical * opening_velocity;
-  if (kind.total) repulsion = max(repulsion, V(0.0));
-  result.bound = kind.total ? repulsion : elastic;
+  V repulsion = nmadd(law.damping * result.critical, opening_velocity, elastic);
+  // Without a branch: which convention holds is the same for all contacts, but neither is worth a kernel of its own.
+  repulsion = max(repulsion, V(kind.total ? 0.0 : -__builtin_huge_val()));
+  result.bound = select(V(0.0) < V(kind.total ? 1.0 : 0.0), repulsion, elastic);
   result.force = repulsion;
   if (K.general)
     result.force =

@@ -66,9 +66,12 @@ void check_static_force() {
       // Positions of order 10: rounding of 2e-15 in each component of two positions.
       EXPECT_NEAR(-seen.gap, deflection, 1e-14);
       const double expected = partners.coefficient * std::pow(-seen.gap, 1.5);
-      EXPECT_NEAR(seen.normal_force, expected, 1e-13 * expected);
+      // `gap` is computed apart from the contact pass: two ulps of a distance of order 1. With a plane the pass works
+      // with the point of the plane next to the grain, rounded like any position of order 10 (2e-15 in each component).
+      const double rounding = (sample.planes.empty() ? 4e-16 : 4e-15) * 1.5 * expected / deflection;
+      EXPECT_NEAR(seen.normal_force, expected, 1e-13 * expected + rounding);
       EXPECT_LT((seen.normal - n).norm(), 1e-14);
-      EXPECT_EQ(seen.tangential_force.norm() < 1e-15 * expected, true);
+      EXPECT_EQ(seen.tangential_force.norm() < (sample.planes.empty() ? 1e-15 : 2e-14) * expected, true);
     }
 }
 

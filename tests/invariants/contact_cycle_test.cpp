@@ -87,7 +87,8 @@ Balance around(const Cycle& cycle, bool hertz) {
     if (before > 0 && hertz) adapt_spring<kernel, Lane>(before, stiffness, dt, spring, losses);
     const double limit = cycle.friction * normal.bound.v;
     const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 0.0, false, dt / 2, dt / 2};
-    const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, losses));
+    Mask<1> slides;
+    const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, slides, losses));
     EXPECT_LE(force.norm(), limit * (1 + 1e-12));
     balance.work += force.dot(shear);
     balance.lost += dt * (losses.plastic + losses.unloading + losses.viscous).v;
@@ -155,7 +156,9 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
       walk(cycle, [&](double, const Vec<3>& shear) {
         Losses<Lane> losses;
         const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 30.0, total, dt / 2, dt / 2};
-        const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, losses));
+        Mask<1> slides;
+        const Vec<3> force =
+            from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, slides, losses));
         if (total) {
           EXPECT_LE(force.norm(), limit * (1 + 1e-12));
         }
@@ -182,7 +185,8 @@ TEST(ContactRotation, KeepsForceInTheMovingFrame) {
       const double norm = turn.norm();
       frame = (Eigen::Quaterniond(Eigen::AngleAxisd(norm, turn / norm)) * frame).normalized();
       const Vec<3> next = frame * normal_at_start;
-      force = from_lanes(transport(to_lanes(force), to_lanes(normal), to_lanes(next), to_lanes(turn)));
+      const LaneVector turned = twisted<Lane>(to_lanes(force), to_lanes(normal), to_lanes(turn), 1.0);
+      force = from_lanes(carried(turned, to_lanes(normal), to_lanes(next)));
       normal = next;
     }
     // Rounding of 1e5 steps adds up like a random walk: 300 times 2e-16, and a margin of ten in each of both sides.
