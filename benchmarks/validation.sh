@@ -69,6 +69,19 @@ grep '^#' "$results/lammps_peer/table.csv"
 echo '```'
 echo
 measured_on lammps_peer
+if [ -f "$results/lammps_speed/cases.csv" ]; then
+  echo "## Speed against LAMMPS"
+  cat <<'END'
+
+Grain-steps per second of processor time, in millions, of both codes in turn on one core: the same packing, law, step and rate, LAMMPS
+with the best settings found (`benchmarks/peers/lammps_speed.cpp` says which were tried). `*_difference`: between the ends of both runs.
+
+END
+  csv_table "$results/lammps_speed/cases.csv"
+  printf 'Two threads against one, by wall time:\n\n'
+  csv_table "$results/lammps_speed/threads.csv"
+  measured_on lammps_speed
+fi
 echo "## Layouts and terms"
 printf '\nThe same sample and the same motion (mu = 0) in the frictionless layout and in the frictional one, with friction, and what\n'
 printf 'each term of the law of md adds (a term that is off has no code in the kernel that runs).\n'
