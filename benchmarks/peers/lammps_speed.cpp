@@ -26,8 +26,6 @@
 #include "benchmarks/peers/lammps_run.hpp"
 #include "benchmarks/peers/packings.hpp"
 #include "common/core/parallel.hpp"
-#include "common/measure/coordination.hpp"
-#include "common/measure/stress.hpp"
 #include "src/clock.hpp"
 
 namespace galet::bench {
@@ -89,13 +87,9 @@ EndState<D> run_galet(const Work<D>& work, double (*clock)() = thread_seconds) {
   engine->advance(warm);
   const double start = clock();
   engine->advance(work.steps);
-  EndState<D> end;
-  end.seconds = clock() - start;
-  const Snapshot<D> state = engine->snapshot();
-  end.position.assign(state.position.begin(), state.position.end());
-  end.velocity.assign(state.velocity.begin(), state.velocity.end());
-  end.stress = stress<D>(state).contact;
-  end.z = coordination<D>(state, true).z;
+  const double seconds = clock() - start;
+  EndState<D> end = end_of<D>(*engine);
+  end.seconds = seconds;
   return end;
 }
 

@@ -6,7 +6,10 @@
 #include <filesystem>
 
 #include "benchmarks/dense_sample.hpp"
+#include "benchmarks/peers/lammps_run.hpp"
 #include "common/io/lammps.hpp"
+#include "common/measure/coordination.hpp"
+#include "common/measure/stress.hpp"
 
 namespace galet::bench {
 
@@ -52,6 +55,18 @@ Sample<D> peer_packing(int count, bool hertz, const std::filesystem::path& folde
   const Sample<D> packing = assembled<D>(scene, loose, 25);
   write_lammps_data<D>(file.string(), packing);
   return packing;
+}
+
+/// Where an engine stands; no time.
+template <int D>
+EndState<D> end_of(Engine<D>& engine) {
+  const Snapshot<D> state = engine.snapshot();
+  EndState<D> end;
+  end.position.assign(state.position.begin(), state.position.end());
+  end.velocity.assign(state.velocity.begin(), state.velocity.end());
+  end.stress = stress<D>(state).contact;
+  end.z = coordination<D>(state, true).z;
+  return end;
 }
 
 /// `copies` of the cell along each direction.
