@@ -8,6 +8,8 @@
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
+#   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
+#   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
 set -euo pipefail
@@ -17,7 +19,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d hertz_compression lammps_peer plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
@@ -33,6 +35,10 @@ for name in "${names[@]}"; do
     hertz_compression)
       for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
     lammps_peer) benchmarks/peers/lammps.sh "$out/table.csv" ;;
+    lammps_speed) benchmarks/peers/lammps_speed.sh "$out" ;;
+    md_accuracy)
+      speeds=benchmarks/results/lammps_speed/cases.csv
+      if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac
   # Paths of this run say nothing to a reader.

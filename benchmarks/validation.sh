@@ -69,6 +69,33 @@ grep '^#' "$results/lammps_peer/table.csv"
 echo '```'
 echo
 measured_on lammps_peer
+if [ -f "$results/lammps_speed/cases.csv" ]; then
+  echo "## Speed against LAMMPS"
+  cat <<'END'
+
+Grain-steps per second of processor time, in millions, of both codes in turn on one core: the same packing, law, step and rate, LAMMPS
+with the best settings found (`benchmarks/peers/lammps_speed.cpp` says which were tried). `*_difference`: between the ends of both runs.
+
+END
+  csv_table "$results/lammps_speed/cases.csv"
+  printf 'Two threads against one, by wall time:\n\n'
+  csv_table "$results/lammps_speed/threads.csv"
+  measured_on lammps_speed
+fi
+if [ -f "$results/md_accuracy/orders.csv" ]; then
+  echo "## Error against the time step"
+  cat <<'END'
+
+Errors at 10.4 to 320.4 steps per collision of md and of the usual scheme (collisions: a program of its own; packings: LAMMPS), observed
+orders, and steps per collision at which an error is reached (~: extrapolated). What is measured against what stands at the head of
+`benchmarks/md_accuracy.cpp`; `check`: how far the limits of both programs lie apart.
+
+END
+  csv_table "$results/md_accuracy/orders.csv"
+  printf 'Work to reach an error: ratio of steps times ratio of speeds.\n\n'
+  csv_table "$results/md_accuracy/work.csv"
+  measured_on md_accuracy
+fi
 echo "## Layouts and terms"
 printf '\nThe same sample and the same motion (mu = 0) in the frictionless layout and in the frictional one, with friction, and what\n'
 printf 'each term of the law of md adds (a term that is off has no code in the kernel that runs).\n'
