@@ -55,10 +55,10 @@ Scene glass(int count, std::uint64_t seed, double pressure) {
 /// The same until it is at rest: kinetic energy per grain below 5e-8 P d^3, as with Agnolin and Roux.
 Scene relaxing(Scene scene) {
   const double time = inertial_time(*scene.loading.pressure);
-  scene.md.acceleration_damping = 0.7;
-  scene.run.duration = 400 * time;
+  scene.md.acceleration_damping = 0.3;
+  scene.run.duration = 1500 * time;
   scene.run.equilibrium = 5e-8;
-  scene.run.samples = 4000;
+  scene.run.samples = 15000;
   return scene;
 }
 

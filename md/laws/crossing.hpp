@@ -23,12 +23,15 @@
 
 namespace galet::md {
 
-/// -zeta(-a, theta) of the root x^a, a = 1/2 or 1/4; theta in [0, 1].
+/// -zeta(-a, theta) of the root x^a, a = 1/2 or 1/4; theta in [0, 1]: the integral up to 1 + theta, with Euler and
+/// Maclaurin's end terms there, less the sample at theta.
 template <class V>
 GALET_INLINE V root_correction(V theta, bool quarter) {
-  const V end = V(1.0) + theta, root = sqrt(end), power = quarter ? sqrt(root) : root;
   const double a = quarter ? 0.25 : 0.5;
-  return power * (end / V(1 + a) - V(0.5) + V(a / 12) / end);
+  const V end = V(1.0) + theta;
+  V sample = sqrt(theta), power = sqrt(end);
+  if (quarter) sample = sqrt(sample), power = sqrt(power);
+  return power * (end / V(1 + a) - V(0.5) + V(a / 12) / end) - sample;
 }
 
 /// What crossings change, in the lanes that cross.
