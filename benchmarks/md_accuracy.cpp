@@ -251,9 +251,8 @@ EndState<3> md_end(const Packing& which, double steps_per_collision, std::vector
   scene.md.dt = which.duration / static_cast<double>(steps);
   auto engine = md::make_engine<3>(scene, derive(scene, grain_facts<3>(scene, which.sample)), which.sample);
   engine->advance(steps);
-  if (bearing)
-    for (const char rattler : rattlers<3>(engine->snapshot(), which.treatment.friction > 0))
-      bearing->push_back(!rattler);
+  if (bearing)  // by the rule of frictional packings: the frictionless one calls all of a sheared sample loose
+    for (const char rattler : rattlers<3>(engine->snapshot(), true)) bearing->push_back(!rattler);
   return end_of<3>(*engine);
 }
 
