@@ -16,13 +16,15 @@ class Skin {
 
   static constexpr double least = 0.005, most = 0.2;  ///< of the mean diameter
   static constexpr double building_cost = 75;         ///< C
-  static constexpr long longest_age = 1000;           ///< steps after which a wide list is made anew
+  static constexpr long longest_age = 250;            ///< steps after which a wide list is made anew
 
   /// Whether a list that still holds is wider than it should be.
   bool too_wide(double skin, long age) const { return age >= longest_age && skin > 3 * least * diameter_; }
 
-  /// The widest first: columns then have room for every list to come of a sample that keeps its density.
-  double first() const { return most * diameter_; }
+  /// The list is built with this skin once, before the first one: columns then have room for every list to come of a
+  /// sample that keeps its density.
+  double widest() const { return most * diameter_; }
+  double first() const { return 0.03 * diameter_; }
 
   /// The next skin, after one that lasted `age` steps; `idle`: listed pairs per grain that don't touch.
   double next(double skin, long age, double idle) const {

@@ -55,8 +55,10 @@ class SoftEngine final : public Engine<Y.dim> {
     states_.take(bodies_);
     equal_pairs_ = pairs_are_equal();
     mode_acceleration_.assign(bodies_.modes.size(), 0.0);
-    list_.configure(range_, skin_.first());
-    update_neighbours();
+    for (const double skin : {skin_.widest(), skin_.first()}) {
+      list_.configure(range_, skin);
+      rebuild_list();
+    }
     evaluate(0);
     states_.forget_before(bodies_.grains());
     mode_before_ = mode_acceleration_;
@@ -266,12 +268,14 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
   void update_neighbours() {
-    if (list_.builds() > 0) {
-      long touching = 0;
-      for (std::size_t row = 0; row < list_.size(); ++row) touching += contacts_.touches(row);
-      const double idle = static_cast<double>(static_cast<long>(list_.size()) - touching) / bodies_.grains();
-      list_.configure(range_, skin_.next(list_.skin(), list_age_, idle));
-    }
+    long touching = 0;
+    for (std::size_t row = 0; row < list_.size(); ++row) touching += contacts_.touches(row);
+    const double idle = static_cast<double>(static_cast<long>(list_.size()) - touching) / bodies_.grains();
+    list_.configure(range_, skin_.next(list_.skin(), list_age_, idle));
+    rebuild_list();
+  }
+
+  void rebuild_list() {
     list_age_ = 0;
     list_bound_.set(0);
     fetch_positions();

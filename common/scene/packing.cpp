@@ -14,6 +14,7 @@
 #include "common/scene/materials.hpp"
 #include "common/scene/placement.hpp"
 #include "common/scene/random_insertion.hpp"
+#include "common/scene/spatial_order.hpp"
 
 namespace galet {
 
@@ -202,6 +203,18 @@ void wrap_positions(Sample<D>& sample) {
   for (Vec<D>& x : sample.position) x = wrapped_position<D>(sample.cell, inverse, x);
 }
 
+/// A gas, whose grains are numbered along a curve through the cell.
+template <int D>
+void place_at_random(const Scene& scene, Sample<D>& sample) {
+  const std::vector<Vec<D>> position = random_insertion<D>(sample.cell, sample.planes, sample.radius, scene.seed);
+  const std::vector<int> order = spatial_order<D>(sample.cell, position);
+  const std::vector<double> radius = sample.radius;
+  for (int k = 0; k < sample.count(); ++k) {
+    sample.position[k] = position[order[k]];
+    sample.radius[k] = radius[order[k]];
+  }
+}
+
 /// A lattice or a gas.
 template <int D>
 Sample<D> drawn_sample(const Scene& scene) {
@@ -215,7 +228,7 @@ Sample<D> drawn_sample(const Scene& scene) {
   if (scene.initial.kind == InitialKind::lattice)
     place_on_lattice<D>(scene, sample);
   else
-    sample.position = random_insertion<D>(sample.cell, sample.planes, sample.radius, scene.seed);
+    place_at_random<D>(scene, sample);
   assign_materials<D>(scene, sample);
   set_masses<D>(scene, sample);
   return sample;

@@ -348,6 +348,27 @@ TEST(Packing, MistakesInPackingFiles) {
   EXPECT_REFUSED(2, packing_scene(2, folder, "a.txt"), "must end in .csv");
 }
 
+/// Grains that come one after the other are near each other: the mean distance of successive grains in a gas of n
+/// grains per unit volume is some n^(-1/D) along the curve, and half of the cell's edge (12 n^(-1/D) here) in random
+/// order.
+template <int D>
+double mean_step(int count) {
+  const Sample<D> gas = initial_sample<D>(base_scene(D, InitialKind::gas, count, 0.2));
+  const Mat<D> inverse = gas.cell.box.inverse();
+  double sum = 0;
+  for (int k = 1; k < count; ++k) {
+    Vec<D> step = inverse * (gas.position[k] - gas.position[k - 1]);
+    for (int a = 0; a < D; ++a) step[a] -= std::round(step[a]);
+    sum += (gas.cell.box * step).norm();
+  }
+  return sum / (count - 1) / std::pow(gas.cell.volume() / count, 1.0 / D);
+}
+
+TEST(Packing, GasIsNumberedAlongACurve) {
+  EXPECT_LT(mean_step<2>(600), 2.5);
+  EXPECT_LT(mean_step<3>(1800), 2.5);
+}
+
 TEST(Packing, LammpsFile) {
   const TemporaryFolder folder;
   Scene gas = base_scene(2, InitialKind::gas, 30, 0.3);
