@@ -122,7 +122,7 @@ TEST(Checkpoint, SaysWhatIsWrongWithAFile) {
   put_bytes(path, good.substr(0, good.size() - 1));
   EXPECT_NE(refusal(path).find("truncated"), std::string::npos) << refusal(path);
   std::string other = good;
-  other.replace(other.find("version 1"), 9, "version 7");
+  other.replace(other.find("version ") + 8, 1, "7");
   put_bytes(path, other);
   EXPECT_NE(refusal(path).find("version 7"), std::string::npos) << refusal(path);
   EXPECT_NE(refusal(path).find(path), std::string::npos) << "the message must name the file";
