@@ -11,6 +11,7 @@
 #include "common/geometry/contact_frame.hpp"
 #include "common/graph/colouring.hpp"
 #include "common/neighbour/verlet_list.hpp"
+#include "common/scene/pair_law.hpp"
 
 namespace galet::cd {
 
@@ -23,6 +24,20 @@ ContactFrame<Y.dim> frame_of(const Bodies<Y>& bodies, const PairColumns<Y.dim>& 
   const Vec<D> branch = bodies.position[j] - bodies.position[i] + lattice<D>(bodies.cell.box, pairs.image[row]);
   return grain_frame<D>(branch, branch.squaredNorm(), bodies.radius[i], bodies.radius[j]);
 }
+
+/// Index of a listed pair's law in a table of that many materials.
+template <Layout Y>
+int law_index(const Bodies<Y>& bodies, const PairColumns<Y.dim>& pairs, std::size_t row, int materials) {
+  const int i = pairs.i[row], j = pairs.j[row];
+  const int other = j >= bodies.grains() ? bodies.plane_material[j - bodies.grains()] : bodies.material[j];
+  return bodies.material[i] * materials + other;
+}
+
+/// How a step goes forward in time: velocities count theta at its end and 1 - theta at its start.
+struct StepRule {
+  double dt;
+  double theta = 1;
+};
 
 template <Layout Y>
 class Assembly {
@@ -53,7 +68,8 @@ class Assembly {
   }
 
   /// Marks the pairs that are not in the problem and would overlap by the end of the step; returns how many.
-  int activate_missed(const Bodies<Y>& bodies, const VerletList<D>& list, const Iterate<Y>& iterate, double dt) {
+  int activate_missed(const Bodies<Y>& bodies, const VerletList<D>& list, const Iterate<Y>& iterate,
+                      const StepRule& rule) {
     int missed = 0;
     const PairColumns<D>& pairs = list.pairs();
     for (std::size_t row = 0; row < list.size(); ++row) {
@@ -61,13 +77,16 @@ class Assembly {
       const ContactFrame<D>& frame = frames_[row];
       Vec<D> u = iterate.velocity[pairs.j[row]] - iterate.velocity[pairs.i[row]];
       if (pairs.j[row] < bodies.grains()) u += iterate.gradient * frame.branch;
-      if (frame.gap + dt * frame.normal.dot(u) < 0) active_[row] = 1, ++missed;
+      const double opening = rule.theta * frame.normal.dot(u) + (1 - rule.theta) * opening_[row];
+      if (frame.gap + rule.dt * opening < 0) active_[row] = 1, ++missed;
     }
     return missed;
   }
 
   /// Fills the contact columns from the active rows, grouped by colour. `row_of` tells each contact's row.
-  void fill(const Bodies<Y>& bodies, const VerletList<D>& list, double restitution, double dt, Problem<Y>& problem) {
+  /// `start`: velocities at the start of the step (asked for only if tangential motions rebound).
+  void fill(const Bodies<Y>& bodies, const VerletList<D>& list, const LawTable& laws, const StepRule& rule,
+            const Iterate<Y>& start, Problem<Y>& problem) {
     const PairColumns<D>& pairs = list.pairs();
     make_room(list.size(), problem);
     rows_.clear(), body_i_.clear(), body_j_.clear();
@@ -77,7 +96,9 @@ class Assembly {
       body_i_.push_back(pairs.i[row]);
       body_j_.push_back(pairs.j[row]);
     }
-    colouring_.colour(body_i_, body_j_, bodies.grains(), rows_.capacity());
+    // Planes that move share their contacts as grains do.
+    const std::size_t planes = problem.plane_mobility.size();
+    colouring_.colour(body_i_, body_j_, bodies.grains() + static_cast<int>(planes), rows_.capacity());
     problem.resize(rows_.size());
     problem.group = colouring_.start;
     problem.sequential_tail = colouring_.overflow;
@@ -90,8 +111,13 @@ class Assembly {
       problem.j[k] = pairs.j[row];
       problem.normal[k] = frame.normal;
       problem.distance[k] = frame.distance;
-      problem.offset[k] = impact_offset(frame.gap, opening_[row], restitution, dt);
+      const int law = law_index(bodies, pairs, row, laws.materials);
+      problem.offset[k] = impact_offset(frame.gap, opening_[row], laws.pairs[law].restitution, rule.dt, rule.theta);
       fill_block(bodies, frame, k, problem);
+      if constexpr (Y.friction) {
+        problem.law[k] = static_cast<std::uint8_t>(law);
+        if (problem.lagged) fill_lag(laws.pairs[law].tangential_restitution, start, k, problem);
+      }
     }
     GALET_ENSURE(no_grain_twice(problem, bodies.grains()), "the contacts of a colour share no grain");
   }
@@ -142,7 +168,7 @@ class Assembly {
       hub += mode.inverse_inertia * (mode.direction * frame.branch).squaredNorm();
     // A grain that meets its own image moves with it: only the cell can part them.
     const double masses = i == j ? 0 : problem.inverse_mass[i] + problem.inverse_mass[j];
-    const double w_n = masses + hub;
+    const double w_n = masses + hub + problem.mobility(j);
     problem.wn[k] = w_n;
     problem.inverse_wn[k] = w_n > 0 ? 1 / w_n : 0;
     if constexpr (Y.friction) {
@@ -153,8 +179,20 @@ class Assembly {
       const double turning =
           i == j ? (arm_i + arm_j) * (arm_i + arm_j) * problem.inverse_inertia[i]
                  : arm_i * arm_i * problem.inverse_inertia[i] + arm_j * arm_j * problem.inverse_inertia[j];
-      problem.inverse_wt[k] = 1 / (w_n + turning);
+      problem.inverse_wt[k] = 1 / (masses + hub + turning);
+      if constexpr (Y.rolling) {
+        const double inverse_i = problem.inverse_inertia[i], inverse_j = problem.inverse_inertia[j];
+        problem.wr[k] = problem.wp[k] = i == j ? 0 : inverse_i + inverse_j;
+        problem.coupling[k] = i == j ? 0 : arm_i * inverse_i - arm_j * inverse_j;
+      }
     }
+  }
+
+  /// Tangential motions rebound: lag = e_T times the motion at the start of the step.
+  static void fill_lag(double restitution, const Iterate<Y>& start, std::size_t k, Problem<Y>& problem) {
+    Components<Y> motion = relative_motion(problem, start, start.gradient, k);
+    motion.normal = 0, motion.tangential *= restitution, motion.rolling *= restitution, motion.pivoting *= restitution;
+    problem.lag[k] = composed<Y>(problem.normal[k], motion);
   }
 
   std::vector<ContactFrame<D>> frames_;

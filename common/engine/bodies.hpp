@@ -99,8 +99,9 @@ struct Bodies {
       mode_columns.insert(mode_columns.end(), {mode.rate, mode.load, mode.inertia});
     }
     std::vector<double>& points = archive.reals["planes.point"];
-    points.clear();
-    for (const Plane<D>& plane : planes) append(points, plane.point);
+    std::vector<double>& velocities = archive.reals["planes.velocity"];
+    points.clear(), velocities.clear();
+    for (const Plane<D>& plane : planes) append(points, plane.point), append(velocities, plane.velocity);
     archive.integers["layout"] = {Y.dim, Y.friction, Y.rolling};
   }
 
@@ -128,6 +129,8 @@ struct Bodies {
     numbers.resize(D * planes.size());
     take_column(archive, "planes.point", numbers);
     for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].point);
+    take_column(archive, "planes.velocity", numbers);
+    for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].velocity);
   }
 };
 

@@ -191,6 +191,18 @@ void add_planes(Rows& rows) {
                   .quantity = Quantity::velocity,
                   .fallback = "at rest",
                   .doc = "imposed velocity"});
+  rows.push_back({.path = "plane.mass",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().mass; },
+                  .quantity = Quantity::mass,
+                  .range = above(0),
+                  .fallback = "none: its velocity is imposed",
+                  .doc = "cd: the plane is a body of this mass that moves freely along its normal (`velocity` is then "
+                         "where it starts, and stays imposed across the normal)"});
+  rows.push_back({.path = "plane.force",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().force; },
+                  .quantity = Quantity::force,
+                  .doc = "on a plane with mass, along its normal: > 0 presses it against the grains. Gravity does not "
+                         "act on planes"});
   rows.push_back({.path = "plane.material",
                   .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
                   .fallback = "[material]",
@@ -301,6 +313,16 @@ void add_engines(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.cd.penetration; },
                   .range = above(0),
                   .doc = "largest penetration that drift may reach, in units of d"});
+  rows.push_back({.path = "cd.theta",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.theta; },
+                  .range = between(0.5, 1),
+                  .doc = "positions advance with theta v+ + (1 - theta) v-. 1: what ends a step is what contacts saw, "
+                         "so that no impact penetrates; 0.5: free flight of second order, but an impact may penetrate "
+                         "by (1 - e) u dt / 2"});
+  rows.push_back({.path = "cd.compliance",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.compliance; },
+                  .doc = "contacts have the stiffness of the material (normal, tangential, rolling), implicit in the "
+                         "step, which may be far above tau_c; false: rigid"});
 }
 
 void add_run(Rows& rows) {

@@ -76,6 +76,7 @@ std::vector<Plane<D>> scene_planes(const Scene& scene) {
     if (!(plane.normal.norm() > 0)) throw InputError(path + ", normal: must not be the zero vector");
     plane.normal.normalize();
     if (!spec.velocity.empty()) plane.velocity = vector_of<D>(spec.velocity, path + ", velocity");
+    if (spec.mass) plane.inverse_mass = 1 / *spec.mass, plane.force = spec.force;
     planes.push_back(plane);
   }
   return planes;
