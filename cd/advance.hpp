@@ -24,7 +24,7 @@ void advance_positions(Bodies<Y>& bodies, const Column<Vec<Y.dim>>& velocity, co
   const bool still = gradient.isZero(0);
   for (std::size_t b = 0; b < bodies.position.size(); ++b) {
     const Vec<D> affine = still ? Vec<D>(Vec<D>::Zero()) : Vec<D>(gradient * bodies.position[b]);
-    bodies.position[b] += dt * (velocity[b] + affine);
+    bodies.position[b] += dt * (velocity[body_of(bodies, static_cast<int>(b))] + affine);
   }
   for (std::size_t p = 0; p < bodies.planes.size(); ++p)
     bodies.planes[p].point += dt * velocity[bodies.position.size() + p];

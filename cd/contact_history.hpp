@@ -83,8 +83,9 @@ class ContactHistory {
         if (reaction.isZero(0)) continue;
         const Vec<3>& old_normal = problem.normal[k];
         const Vec<3> normal = frame_of(bodies, list.pairs(), row_of[k]).normal;
-        Vec<3> spin = bodies.spin[problem.i[k]];
-        if (problem.j[k] < bodies.grains()) spin = 0.5 * (spin + bodies.spin[problem.j[k]]);
+        const int i = list.pairs().i[row_of[k]], j = list.pairs().j[row_of[k]];
+        Vec<3> spin = bodies.spin[i];
+        if (j < bodies.grains()) spin = 0.5 * (spin + bodies.spin[j]);
         const double angle = spin.dot(normal) * dt, cosine = std::cos(angle), sine = std::sin(angle);
         const auto turned = [&](const Vec<3>& value) {
           const Vec<3> moved = carried(value, old_normal, normal);

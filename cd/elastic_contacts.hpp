@@ -29,14 +29,14 @@ class ElasticContacts {
   }
 
   /// Adds the compliance to an assembled problem; `before`: impulses of the last step, by row.
-  void apply(const Bodies<Y>& bodies, const LawTable& laws, const Assembly<Y>& assembly,
+  void apply(const Bodies<Y>& bodies, const LawTable& laws, const PairColumns<D>& pairs, const Assembly<Y>& assembly,
              const Column<Reaction<Y>>& before, double dt, Problem<Y>& problem) const {
     for (std::size_t k = 0; k < problem.size(); ++k) {
       const int row = assembly.row_of()[k];
-      const PairLaw& law = law_of(bodies, laws, problem, k);
+      const PairLaw& law = laws.pairs[law_index(bodies, pairs, row, laws.materials)];
       const double gap = assembly.frame(row).gap;
-      const ImplicitContact contact = implicit_contact(law, coefficient(bodies, law, problem, k),
-                                                       reduced_mass(bodies, problem, k), gap, deflection_[row], dt);
+      const ImplicitContact contact = implicit_contact(law, coefficient(bodies, law, pairs, row),
+                                                       reduced_mass(bodies, pairs, row), gap, deflection_[row], dt);
       problem.compliance[k] = contact.compliance;
       problem.offset[k] = contact.offset;
       problem.wn[k] += contact.compliance.normal;
@@ -57,14 +57,14 @@ class ElasticContacts {
   }
 
   /// Whether the solved forces are those of the law within `tolerance`; takes the deflections found for the next round.
-  bool agrees(const Bodies<Y>& bodies, const LawTable& laws, const Assembly<Y>& assembly, const Problem<Y>& problem,
-              const Iterate<Y>& iterate, double dt, double tolerance) {
+  bool agrees(const Bodies<Y>& bodies, const LawTable& laws, const PairColumns<D>& pairs, const Assembly<Y>& assembly,
+              const Problem<Y>& problem, const Iterate<Y>& iterate, double dt, double tolerance) {
     if (laws.pairs[0].normal_law == NormalLaw::linear) return true;
     double miss = 0, scale = 0;
     for (std::size_t k = 0; k < problem.size(); ++k) {
       const int row = assembly.row_of()[k];
-      const PairLaw& law = law_of(bodies, laws, problem, k);
-      const double c = coefficient(bodies, law, problem, k);
+      const PairLaw& law = laws.pairs[law_index(bodies, pairs, row, laws.materials)];
+      const double c = coefficient(bodies, law, pairs, row);
       const double u_n = problem.normal[k].dot(relative_velocity(problem, iterate, iterate.gradient, k));
       const double found = std::max(-(assembly.frame(row).gap + dt * u_n), 0.0);
       const ElasticPoint at = elastic_point(law, c, deflection_[row]);
@@ -88,9 +88,7 @@ class ElasticContacts {
       const ContactFrame<D> frame = frame_of(bodies, pairs, row);
       if (frame.gap >= 0) continue;
       const PairLaw& law = laws.pairs[law_index(bodies, pairs, row, laws.materials)];
-      const int j = pairs.j[row];
-      const double radius_j = j < bodies.grains() ? bodies.radius[j] : -1;
-      const ElasticPoint at = elastic_point(law, coefficient(law, bodies.radius[pairs.i[row]], radius_j), -frame.gap);
+      const ElasticPoint at = elastic_point(law, coefficient(bodies, law, pairs, row), -frame.gap);
       parts.elastic_normal += at.force * -frame.gap / (law.normal_law == NormalLaw::linear ? 2 : 2.5);
       if constexpr (Y.friction) {
         const Components<Y> r = components<Y>(frame.normal, reaction[row]);
@@ -109,21 +107,15 @@ class ElasticContacts {
   }
 
  private:
-  static const PairLaw& law_of(const Bodies<Y>& bodies, const LawTable& laws, const Problem<Y>& problem,
-                               std::size_t k) {
-    const int i = problem.i[k], j = problem.j[k];
-    const int other = j < bodies.grains() ? bodies.material[j] : bodies.plane_material[j - bodies.grains()];
-    return laws.at(bodies.material[i], other);
-  }
   static double coefficient(const PairLaw& law, double radius_i, double radius_j) {
     return normal_coefficient(law, radius_j < 0 ? radius_i : reduced_radius(radius_i, radius_j));
   }
-  static double coefficient(const Bodies<Y>& bodies, const PairLaw& law, const Problem<Y>& problem, std::size_t k) {
-    const int j = problem.j[k];
-    return coefficient(law, bodies.radius[problem.i[k]], j < bodies.grains() ? bodies.radius[j] : -1);
+  static double coefficient(const Bodies<Y>& bodies, const PairLaw& law, const PairColumns<D>& pairs, std::size_t row) {
+    const int j = pairs.j[row];
+    return coefficient(law, bodies.radius[pairs.i[row]], j < bodies.grains() ? bodies.radius[j] : -1);
   }
-  static double reduced_mass(const Bodies<Y>& bodies, const Problem<Y>& problem, std::size_t k) {
-    const int i = problem.i[k], j = problem.j[k];
+  static double reduced_mass(const Bodies<Y>& bodies, const PairColumns<D>& pairs, std::size_t row) {
+    const int i = pairs.i[row], j = pairs.j[row];
     return j < bodies.grains() ? 1 / (1 / bodies.mass[i] + 1 / bodies.mass[j]) : bodies.mass[i];
   }
 

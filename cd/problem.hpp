@@ -19,8 +19,9 @@
 // The stress-driven cell is a hub: a body that every contact touches. Its velocity is L = sum of rate_k G_k over its
 // modes, u contains L b with b = distance * n, and an impulse r changes rate_k by (r (x) b) : G_k / inertia_k.
 //
-// Planes are bodies after the grains. One that is free along its normal has a mobility 1/M for the normal part of an
-// impulse and none for the rest.
+// Planes, and then rough walls, are bodies after the grains. They don't turn; where forces may move them they have a
+// mobility, a symmetric matrix: n (x) n / M of a plane that is free along its normal, diagonal for a wall. Grains that
+// are glued to a wall are no bodies: their contacts are the wall's.
 //
 // Contacts are stored grouped by colour (common/graph/colouring.hpp). Units: those of the scene; impulses are
 // force * time, offset is a velocity. Signs: core/conventions.hpp.
@@ -80,12 +81,12 @@ template <Layout Y>
 struct Problem {
   static constexpr int D = Y.dim;
 
-  // Bodies: the grains, then the planes (inverse mass 0; their own mobility below).
+  // Bodies: the grains, the planes, the walls (the latter two with inverse mass 0 and the mobility below).
   int grains = 0;
   Column<double> inverse_mass;
   Column<double, Y.friction> inverse_inertia;
   std::vector<HubMode<D>> hub;
-  std::vector<double> plane_mobility;  ///< 1 / mass of planes that are free along their normal; empty: none is
+  std::vector<Mat<D>> mobility;  ///< of planes and walls; empty: forces move none of them
 
   // Contacts. W holds the compliance where there is one.
   std::vector<ContactLaw> laws;  ///< by pair of materials
@@ -107,9 +108,7 @@ struct Problem {
   bool sequential_tail = false;  ///< the last group's contacts share bodies
 
   std::size_t size() const { return i.size(); }
-  double mobility(int body) const {
-    return plane_mobility.empty() || body < grains ? 0 : plane_mobility[body - grains];
-  }
+  bool mobile(int body) const { return body >= grains && !mobility.empty(); }
 
   /// Memory for this many contacts.
   void reserve(std::size_t contacts) {
@@ -273,14 +272,21 @@ inline double weighted_square(const Problem<Y>& problem, std::size_t k, const Re
   }
 }
 
+/// Adds the impulse p to the velocity of a body.
+template <Layout Y>
+inline void push(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const Vec<Y.dim>& p) {
+  if (body < problem.grains)
+    iterate.velocity[body] += problem.inverse_mass[body] * p;
+  else if (problem.mobile(body))
+    iterate.velocity[body] += problem.mobility[body - problem.grains] * p;
+}
+
 /// Adds the impulse p (on j, -p on i) of contact k to the velocities of its bodies; the hub is the caller's.
 template <Layout Y>
 inline void add_impulse(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, const Vec<Y.dim>& p) {
   const int i = problem.i[k], j = problem.j[k];
-  iterate.velocity[i] -= problem.inverse_mass[i] * p;
-  iterate.velocity[j] += problem.inverse_mass[j] * p;
-  if (const double mobility = problem.mobility(j); mobility > 0)
-    iterate.velocity[j] += mobility * problem.normal[k].dot(p) * problem.normal[k];
+  push(problem, iterate, i, Vec<Y.dim>(-p));
+  push(problem, iterate, j, p);
   if constexpr (Y.friction) {
     const Spin<Y.dim> turn = cross(problem.normal[k], p);
     iterate.spin[i] -= (problem.arm_i[k] * problem.inverse_inertia[i]) * turn;

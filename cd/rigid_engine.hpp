@@ -168,7 +168,8 @@ class RigidEngine final : public Engine<Y.dim> {
 
   /// Inverse masses, hub, laws and the columns that a step only fills.
   void prepare_problem() {
-    const std::size_t grains = bodies_.position.size(), count = grains + bodies_.planes.size();
+    const std::size_t grains = bodies_.position.size();
+    const std::size_t count = grains + bodies_.planes.size() + bodies_.walls.size();
     problem_.grains = bodies_.grains();
     problem_.inverse_mass.assign(count, 0.0);
     problem_.inverse_inertia.assign(count, 0.0);
@@ -179,11 +180,13 @@ class RigidEngine final : public Engine<Y.dim> {
     problem_.hub.clear();
     for (const CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) problem_.hub.push_back({mode.direction, 1 / mode.inertia});
-    problem_.plane_mobility.clear();
-    bool free_plane = false;
-    for (const Plane<D>& plane : bodies_.planes) free_plane = free_plane || plane.inverse_mass > 0;
-    if (free_plane)
-      for (const Plane<D>& plane : bodies_.planes) problem_.plane_mobility.push_back(plane.inverse_mass);
+    problem_.mobility.clear();
+    bool some = false;
+    for (const Plane<D>& plane : bodies_.planes)
+      problem_.mobility.push_back(plane.inverse_mass * plane.normal * plane.normal.transpose());
+    for (const Wall<D>& wall : bodies_.walls) problem_.mobility.push_back(wall.mobility.asDiagonal());
+    for (const Mat<D>& mobility : problem_.mobility) some = some || !mobility.isZero(0);
+    if (!some) problem_.mobility.clear();
     problem_.laws.clear();
     for (const PairLaw& law : laws_.pairs)
       problem_.laws.push_back({law.friction, law.rolling_friction, law.pivoting_friction});
@@ -194,7 +197,8 @@ class RigidEngine final : public Engine<Y.dim> {
   /// Velocities at the start of the step and free velocities at its end, and how much faster than the mean a body is.
   void predict(double dt) {
     StageTimer timer(profile_, Stage::grains);
-    const std::size_t grains = bodies_.position.size(), count = grains + bodies_.planes.size();
+    const std::size_t grains = bodies_.position.size(), planes = bodies_.planes.size();
+    const std::size_t count = grains + planes + bodies_.walls.size();
     start_.velocity.resize(count), free_.velocity.resize(count);
     Vec<D> mean = Vec<D>::Zero();
     for (std::size_t b = 0; b < grains; ++b) {
@@ -202,11 +206,18 @@ class RigidEngine final : public Engine<Y.dim> {
       free_.velocity[b] = v + dt * (bodies_.gravity - bodies_.cell.rate * v);
       mean += free_.velocity[b] / static_cast<double>(grains);
     }
-    for (std::size_t p = 0; p < bodies_.planes.size(); ++p) {
+    for (std::size_t p = 0; p < planes; ++p) {
       const Plane<D>& plane = bodies_.planes[p];
       start_.velocity[grains + p] = plane.velocity;
       free_.velocity[grains + p] = plane.velocity + dt * plane.force * plane.inverse_mass * plane.normal;
     }
+    for (std::size_t w = 0; w < bodies_.walls.size(); ++w) {
+      const Wall<D>& wall = bodies_.walls[w];
+      start_.velocity[grains + planes + w] = wall.velocity;
+      free_.velocity[grains + planes + w] = wall.velocity + dt * wall.mobility.cwiseProduct(wall.force);
+    }
+    for (std::size_t b = 0; b < bodies_.wall_of.size(); ++b)
+      free_.velocity[b] = free_.velocity[body_of(bodies_, static_cast<int>(b))];
     if constexpr (Y.friction) {
       start_.spin = bodies_.spin;
       start_.spin.resize(count, zero_spin<D>());
@@ -260,7 +271,7 @@ class RigidEngine final : public Engine<Y.dim> {
       assembly_.measure(bodies_, list_);
       if (cohesive_) history_.attract(bodies_, list_, laws_, assembly_, rule.dt);
       if (compliant_) elastic_.start(assembly_, list_.size(), 1e-7 * diameter_);
-      assembly_.activate(list_, free_.velocity, rule.dt, 2 * penetration_);
+      assembly_.activate(bodies_, list_, free_.velocity, rule.dt, 2 * penetration_);
       copy_with_room(history_.before, history_.present);
     }
     for (bool complete = false; !complete;) {
@@ -269,7 +280,8 @@ class RigidEngine final : public Engine<Y.dim> {
       note(solver_.solve(problem_, options_, iterate_));
       history_.store(assembly_.row_of(), iterate_);
       complete = assembly_.activate_missed(bodies_, list_, iterate_, rule) == 0;
-      if (compliant_ && !elastic_.agrees(bodies_, laws_, assembly_, problem_, iterate_, rule.dt, options_.tolerance))
+      if (compliant_ &&
+          !elastic_.agrees(bodies_, laws_, list_.pairs(), assembly_, problem_, iterate_, rule.dt, options_.tolerance))
         complete = false;
     }
   }
@@ -277,7 +289,7 @@ class RigidEngine final : public Engine<Y.dim> {
   void assemble(const StepRule& rule) {
     StageTimer timer(profile_, Stage::contacts);
     assembly_.fill(bodies_, list_, laws_, rule, start_, problem_);
-    if (compliant_) elastic_.apply(bodies_, laws_, assembly_, history_.before, rule.dt, problem_);
+    if (compliant_) elastic_.apply(bodies_, laws_, list_.pairs(), assembly_, history_.before, rule.dt, problem_);
     iterate_.velocity = free_.velocity;
     iterate_.spin = free_.spin;
     iterate_.hub_rate = free_.hub_rate;
@@ -301,8 +313,8 @@ class RigidEngine final : public Engine<Y.dim> {
       const int i = list_.pairs().i[row], j = list_.pairs().j[row];
       const ContactFrame<D>& frame = assembly_.frame(row);
       const Vec<D> p = -impulse * frame.normal;
-      iterate_.velocity[i] -= problem_.inverse_mass[i] * p;
-      iterate_.velocity[j] += (problem_.inverse_mass[j] + problem_.mobility(j)) * p;
+      push(problem_, iterate_, body_of(bodies_, i), Vec<D>(-p));
+      push(problem_, iterate_, body_of(bodies_, j), p);
       virial += p * frame.branch.transpose();
     }
   }
@@ -339,6 +351,9 @@ class RigidEngine final : public Engine<Y.dim> {
     }
     for (std::size_t p = 0; p < bodies_.planes.size(); ++p)
       if (bodies_.planes[p].inverse_mass > 0) bodies_.planes[p].velocity = iterate_.velocity[grains + p];
+    for (std::size_t w = 0; w < bodies_.walls.size(); ++w)
+      bodies_.walls[w].velocity = iterate_.velocity[grains + bodies_.planes.size() + w];
+    bodies_.follow_walls();
     std::size_t m = 0;
     for (CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) mode.rate = iterate_.hub_rate[m++];

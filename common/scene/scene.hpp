@@ -28,6 +28,7 @@ struct ListedGrain {
   std::vector<double> spin = {};      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
   std::string material = {};  ///< name; empty: [material]
+  std::string wall = {};      ///< cd: name of the wall that it is glued to; empty: none
 };
 
 /// Grains (by number) that are of a further material: [[group]] entries. Who belongs to a group is drawn from the seed.
@@ -137,6 +138,15 @@ struct PlaneSpec {
   double force = 0;                   ///< on a free plane, along its normal: > 0 presses it against the grains
 };
 
+/// cd: a rough wall, a rigid body made of the listed grains that name it. It moves without turning.
+struct WallSpec {
+  std::string name = {};
+  std::vector<double> velocity = {};  ///< D components, imposed where the wall is not free; empty: at rest
+  std::vector<bool> free = {};        ///< per direction: moved by forces; empty: in none
+  std::vector<double> force = {};     ///< D components, on its free directions; empty: none
+  std::optional<double> mass = {};    ///< inertia (default: its grains' masses)
+};
+
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
 /// "isotropic" (one rate for all diagonal components; its stress is the mean normal stress).
 struct CellDrive {
@@ -216,6 +226,7 @@ struct Scene {
   InitialSpec initial;
   CellSpec cell;
   std::vector<PlaneSpec> planes;
+  std::vector<WallSpec> walls;
   LoadingSpec loading;
   MdSpec md;
   CdSpec cd;
