@@ -31,7 +31,8 @@ struct ColdProblem {
     VerletList<D> list;
     list.configure(0, 0.1);
     list.build(bodies.position, bodies.radius, bodies.cell, bodies.planes);
-    problem.friction = friction;
+    problem.laws = {{friction, 0, 0}};
+    problem.grains = count;
     for (int i = 0; i < count; ++i) {
       problem.inverse_mass.push_back(1 / bodies.mass[i]);
       problem.inverse_inertia.push_back(1 / bodies.inertia[i]);
@@ -45,8 +46,8 @@ struct ColdProblem {
     start.gradient = start.hub_rate[0] * mode.direction;
     cd::Assembly<Y> assembly;
     assembly.measure(bodies, list);
-    assembly.activate(list, start.velocity, dt, 1e-3);
-    assembly.fill(bodies, list, 0, dt, problem);
+    assembly.activate(bodies, list, start.velocity, dt, 1e-3);
+    assembly.fill(bodies, list, derived.laws, {dt}, start, problem);
     start.reaction.assign(problem.size(), cd::Reaction<Y>::Zero());
   }
 };

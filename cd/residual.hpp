@@ -1,7 +1,10 @@
 // How far an iterate is from a solution: the natural map of the frictional contact problem, contact by contact scaled
 // to a unit mean block, relative to the impulses.
-//   err = sqrt( sum |r~ - P_K(r~ - u^)|^2 / sum |r~|^2 ),   u^ = (u_N + offset + mu |u_T|, u_T) / sqrt(w),
-//   r~ = r sqrt(w),  w = mean of the diagonal of the contact's block W_cc,  K Coulomb's cone.
+//   err = sqrt( sum |r~ - P_K(r~ - u^)|^2 / sum |r~|^2 ),
+//   u^ = (u_N + mu |u_T| + mu_R |w_R| + mu_P |w_P|, u_T) / sqrt(w), w_R / sqrt(W_RR), w_P / sqrt(W_PP)
+//   r~ = r sqrt(w), gamma sqrt(W_RR), ...;  w = mean of the diagonal of the translational block; K the cone of the
+//   bounds in these units, {|r_T| <= mu r_N, |gamma_R| <= mu_R r_N, |gamma_P| <= mu_P r_N}; u the law's motion
+//   (cd/problem.hpp: with offset, lag and compliance).
 // r~ and u^ are square roots of energies, so err depends on no unit; it reads as the relative error of the impulses
 // that the worst-case linear answer of each contact alone would show. It is zero exactly at solutions. (The usual
 // denominator max(|q|, |r|, |u|) is not used: in a flow, sliding velocities are far above r w, and the forces would
@@ -10,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +22,7 @@
 
 namespace galet::cd {
 
-/// Squared distance of r to P_K(r - u^) in scaled form, for components (N, |T| along t), and |r~|^2.
+/// Squared distance of r to P_K(r - u^) in scaled form, and |r~|^2.
 struct ResidualParts {
   double map = 0;
   double impulse = 0;
@@ -29,42 +33,67 @@ struct ResidualParts {
   }
 };
 
-/// Projection of (z_n, z_t) on the cone |z_t| <= mu z_n; Tangent is a number or a vector.
-template <class Tangent>
-inline void project_on_cone(double mu, double& z_n, Tangent& z_t, double norm_t) {
-  if (norm_t <= mu * z_n) return;
-  if (mu * norm_t <= -z_n) {
-    z_n = 0;
-    z_t *= 0.0;
-    return;
+/// The normal part of the projection of a point on the cone {|z_b| <= mu_b z_n for each part b}: the point's own normal
+/// part is z_n, the norms of its other parts are `norms`. The other parts are then cut to mu_b times the result.
+/// Minimum over s >= 0 of (s - z_n)^2 + sum of max(0, norm_b - mu_b s)^2, convex and piecewise quadratic: parts leave
+/// the sum as s grows, so that it is enough to add them in the order in which they do.
+template <std::size_t N>
+inline double projected_normal(double z_n, const std::array<double, N>& norms, const std::array<double, N>& mu) {
+  // Parts that are still cut at the minimum: start with all, and let go of those that the result contains.
+  std::array<bool, N> cut;
+  cut.fill(true);
+  for (std::size_t round = 0;; ++round) {
+    double numerator = z_n, denominator = 1;
+    for (std::size_t b = 0; b < N; ++b)
+      if (cut[b]) numerator += mu[b] * norms[b], denominator += mu[b] * mu[b];
+    const double s = std::max(0.0, numerator / denominator);
+    bool stands = true;
+    for (std::size_t b = 0; b < N; ++b)
+      if (cut[b] && norms[b] <= mu[b] * s) cut[b] = false, stands = false;
+    if (stands || round == N) return s;
   }
-  const double along = (z_n + mu * norm_t) / (1 + mu * mu);
-  z_t *= mu * along / norm_t;
-  z_n = along;
 }
+
+/// How much of a part of norm `norm` stays within `bound`.
+inline double kept(double norm, double bound) { return norm > bound ? bound / norm : 1; }
 
 template <Layout Y>
 inline ResidualParts contact_residual(const Problem<Y>& problem, const Iterate<Y>& iterate, std::size_t k) {
   constexpr int D = Y.dim;
-  const Vec<D> u = relative_velocity(problem, iterate, iterate.gradient, k);
-  const Vec<D>& n = problem.normal[k];
-  const Reaction<Y>& r = iterate.reaction[k];
-  const double u_n = n.dot(u) + problem.offset[k];
   if (problem.inverse_wn[k] == 0) return {};  // nothing can move this contact
+  const Components<Y> r = components<Y>(problem.normal[k], iterate.reaction[k]);
+  const Components<Y> u = law_motion(problem, iterate, iterate.gradient, k, r);
   if constexpr (!Y.friction) {
     const double w = problem.wn[k];
-    const double miss = r[0] - std::max(0.0, r[0] - u_n / w);
-    return {w * miss * miss, w * r[0] * r[0]};
+    const double miss = r.normal - std::max(0.0, r.normal - u.normal / w);
+    return {w * miss * miss, w * r.normal * r.normal};
   } else {
+    const ContactLaw& law = problem.laws[problem.law[k]];
     const double w = (problem.wn[k] + (D - 1) / problem.inverse_wt[k]) / D;
-    const Vec<D> u_t = u - n.dot(u) * n;
-    const Vec<D> p = impulse_vector<Y>(n, r);
-    const double p_n = n.dot(p);
-    const Vec<D> p_t = p - p_n * n;
-    double z_n = p_n - (u_n + problem.friction * u_t.norm()) / w;
-    Vec<D> z_t = p_t - u_t / w;
-    project_on_cone(problem.friction, z_n, z_t, z_t.norm());
-    return {w * ((p_n - z_n) * (p_n - z_n) + (p_t - z_t).squaredNorm()), w * p.squaredNorm()};
+    double corrected = u.normal + law.friction * std::sqrt(squared(u.tangential));
+    const Spin<D> z_t = r.tangential - u.tangential / w;
+    const double norm_t = std::sqrt(squared(z_t));
+    const auto square = [](double value) { return value * value; };
+    if constexpr (!Y.rolling) {
+      const double s = projected_normal<1>(r.normal - corrected / w, {norm_t}, {law.friction});
+      const Spin<D> miss = r.tangential - kept(norm_t, law.friction * s) * z_t;
+      return {w * (square(r.normal - s) + squared(miss)), w * (square(r.normal) + squared(r.tangential))};
+    } else {
+      corrected += law.rolling * std::sqrt(squared(u.rolling)) + law.pivoting * std::abs(u.pivoting);
+      const double wr = problem.wr[k], wp = D == 3 ? problem.wp[k] : 0;
+      const Spin<D> z_r = wr > 0 ? Spin<D>(r.rolling - u.rolling / wr) : zero_spin<D>();
+      const double z_p = wp > 0 ? r.pivoting - u.pivoting / wp : 0;
+      // In units of r: a rolling part counts by the length sqrt(W_RR / w).
+      const double length_r = std::sqrt(wr / w), length_p = std::sqrt(wp / w), norm_r = std::sqrt(squared(z_r));
+      const double s =
+          projected_normal<3>(r.normal - corrected / w, {norm_t, length_r * norm_r, length_p * std::abs(z_p)},
+                              {law.friction, length_r * law.rolling, length_p * law.pivoting});
+      const Spin<D> miss = r.tangential - kept(norm_t, law.friction * s) * z_t;
+      const Spin<D> miss_r = r.rolling - kept(norm_r, law.rolling * s) * z_r;
+      const double miss_p = r.pivoting - kept(std::abs(z_p), law.pivoting * s) * z_p;
+      return {w * (square(r.normal - s) + squared(miss)) + wr * squared(miss_r) + wp * square(miss_p),
+              w * (square(r.normal) + squared(r.tangential)) + wr * squared(r.rolling) + wp * square(r.pivoting)};
+    }
   }
 }
 

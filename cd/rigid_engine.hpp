@@ -1,24 +1,29 @@
-// The cd step as a sequence of stages (Moreau-Jean, positions advanced with the end velocities):
+// The cd step as a sequence of stages (Moreau-Jean):
 //
-//   predict -> neighbours -> frames, activate -> assemble, colour -> warm start -> solve -> update -> correct drift
+//   predict -> neighbours -> frames, attraction, activate -> assemble, colour -> warm start -> solve -> update -> drift
 //
-//   v_free = v + dt (gravity - L v);  hub: rate_free = rate + dt/inertia (sum m v (x) v : G - V load)
+//   v_free = v + dt (gravity - L v) + attraction;  hub: rate_free = rate + dt/inertia (sum m v (x) v : G - V load)
 //   solve for v+, w+, rates+ and impulses (cd/problem.hpp)
-//   x+ = x + dt (v+ + L+ x),  box+ = (1 + dt L+) box
+//   x+ = x + dt (v + L x),  box+ = (1 + dt L) box,  v = theta v+ + (1 - theta) v-           (cd/advance.hpp)
 //
-// A branch vector moves by exactly dt (v_j+ - v_i+ + L+ b), and the distance of two points is a convex function of it,
-// so that a gap ends at or above g + dt u_N+: penetration comes from the solver's tolerance, from restitution of
-// separating pairs, and from the start only. Where it passes the scene's tolerance, positions are projected back
-// (frictionless, mass-weighted, the stress-driven cell taking part) without touching any velocity: no kinetic energy
-// is made. First order in dt. No stiffness, no contact time: dt and the solver's tolerance are the only numerical
-// parameters.
+// theta = 1 by default: positions then move with the velocities that the contact laws were solved for, so that no
+// impact penetrates. With theta < 1 one that stops a grain leaves it (1 - theta - theta e) u dt inside the other.
+//
+// Normals are those of the step's start. A grain that would move by more than a fraction of a diameter in a step would
+// meet others at normals that say nothing, so that such a step is taken in equal parts; and since a pair that closes
+// within a step is part of its problem (whichever way it started), no grain passes through another.
+// First order in dt. No stiffness, no contact time: dt and the solver's tolerance are the only numerical parameters.
 #pragma once
 
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "cd/advance.hpp"
 #include "cd/assembly.hpp"
+#include "cd/contact_account.hpp"
+#include "cd/contact_history.hpp"
+#include "cd/elastic_contacts.hpp"
 #include "cd/problem.hpp"
 #include "cd/solvers/nsgs.hpp"
 #include "common/core/error.hpp"
@@ -34,13 +39,19 @@ class RigidEngine final : public Engine<Y.dim> {
 
   RigidEngine(const Scene& scene, const Derived& derived, const Sample<D>& sample)
       : dt_(derived.cd_dt),
-        restitution_(derived.laws.at(0, 0).restitution),
-        friction_(derived.laws.at(0, 0).friction),
+        last_dt_(derived.cd_dt),
+        theta_(scene.cd.theta),
+        laws_(derived.laws),
+        cohesive_(derived.laws.any_cohesion()),
+        compliant_(scene.cd.compliance),
         diameter_(derived.grains.mean_diameter),
+        least_diameter_(derived.grains.least_diameter),
         penetration_(scene.cd.penetration * derived.grains.mean_diameter),
         options_{scene.cd.tolerance, scene.cd.max_sweeps} {
+    if (compliant_ && !laws_.stiff)
+      throw InputError("cd.compliance needs a stiffness: give material.stiffness_level or material.normal_stiffness");
     bodies_.start(scene, derived, sample);
-    prepare_bodies();
+    prepare_problem();
     skin_ = 0.15 * diameter_;
     update_neighbours();
   }
@@ -52,7 +63,16 @@ class RigidEngine final : public Engine<Y.dim> {
   long steps() const override { return steps_; }
   const Profile& profile() const override { return profile_; }
   SolverSummary solver_summary() const override { return summary_; }
-  EnergyParts energy() const override { return bodies_.energy(); }
+
+  EnergyParts energy() const override {
+    EnergyParts parts = bodies_.energy();
+    if (compliant_) ElasticContacts<Y>::add_energy(bodies_, laws_, list_.pairs(), history_.before, last_dt_, parts);
+    if (cohesive_)
+      for (std::size_t row = 0; row < list_.size(); ++row)
+        parts.cohesive +=
+            attraction_energy(law_of(row), frame_of(bodies_, list_.pairs(), row).gap, !history_.before[row].isZero(0));
+    return parts;
+  }
 
   void advance(long count) override {
     for (long k = 0; k < count; ++k) step();
@@ -70,57 +90,87 @@ class RigidEngine final : public Engine<Y.dim> {
   void save(Archive& archive) const override {
     bodies_.save(archive);
     list_.save(archive);
-    put_column(archive, "contacts.reaction", history_);
-    archive.reals["cd.numbers"] = {dt_, skin_, summary_.worst_residual, summary_.residual_sum};
+    history_.save(archive);
+    archive.reals["cd.numbers"] = {dt_,
+                                   last_dt_,
+                                   skin_,
+                                   summary_.worst_residual,
+                                   summary_.residual_sum,
+                                   summary_.penetration,
+                                   summary_.dissipated,
+                                   summary_.gained};
     archive.integers["steps"] = {steps_};
-    archive.integers["cd.summary"] = {summary_.steps, summary_.sweeps, summary_.missed, summary_.corrections};
+    archive.integers["cd.summary"] = {summary_.steps, summary_.sweeps, summary_.missed, summary_.corrections,
+                                      summary_.divided};
   }
 
   void restore(const Archive& archive) override {
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
-    history_.resize(list_.size());
-    take_column(archive, "contacts.reaction", history_);
-    std::vector<double> numbers(4);
+    history_.restore(archive, list_.size());
+    std::vector<double> numbers(8);
     take_column(archive, "cd.numbers", numbers);
-    dt_ = numbers[0], skin_ = numbers[1], summary_.worst_residual = numbers[2], summary_.residual_sum = numbers[3];
+    dt_ = numbers[0], last_dt_ = numbers[1], skin_ = numbers[2];
+    summary_.worst_residual = numbers[3], summary_.residual_sum = numbers[4], summary_.penetration = numbers[5];
+    summary_.dissipated = numbers[6], summary_.gained = numbers[7];
     steps_ = integer_column(archive, "steps").at(0);
     const auto& counts = integer_column(archive, "cd.summary");
-    if (counts.size() != 4) throw InputError("column 'cd.summary' of the checkpoint has the wrong length");
+    if (counts.size() != 5) throw InputError("column 'cd.summary' of the checkpoint has the wrong length");
     summary_.steps = counts[0], summary_.sweeps = counts[1], summary_.missed = counts[2];
-    summary_.corrections = counts[3];
-    prepare_bodies();
+    summary_.corrections = counts[3], summary_.divided = counts[4];
+    prepare_problem();
   }
 
  private:
   void step() {
-    double fastest = predict();
+    predict(dt_);
+    // The largest distance that two bodies may cover towards each other in one go.
+    const double most = 0.5 * least_diameter_;
+    const double parts = std::ceil(2 * dt_ * spread_ / most);
+    if (parts > 1000)
+      throw RunError(fmt::format("at time {:.6g} grains move by {:.3g} diameters in one step: cd.dt is too large",
+                                 time(), dt_ * spread_ / diameter_));
+    if (parts > 1) ++summary_.divided;
+    const double dt = parts > 1 ? dt_ / parts : dt_;
+    for (int part = 0; part < parts || part == 0; ++part) {
+      if (parts > 1) predict(dt);
+      take(dt);
+    }
+    ++steps_;
+  }
+
+  /// One step of length dt from the predicted velocities.
+  void take(double dt) {
+    history_.rescale(dt / last_dt_);
+    last_dt_ = dt;
     // The list must still hold at the end of the step, whose velocities are not known yet: twice the free ones are
     // reserved for, and the step is taken again with a wider skin in the rare case that this was too little.
+    double fastest = fastest_of(free_.velocity);
     for (int attempt = 0;; ++attempt) {
-      refresh_neighbours(4 * dt_ * fastest);
-      solve_contacts();
-      const double moved = 2 * dt_ * fastest_velocity();
+      refresh_neighbours(4 * dt * fastest);
+      solve_contacts({dt, theta_});
+      const double moved = 2 * dt * fastest_of(iterate_.velocity);
       // A velocity that is not finite is reported with its grain when velocities are accepted.
       if (!std::isfinite(moved) || !list_.expired(bodies_.position, bodies_.cell, bodies_.planes, moved)) break;
       if (attempt == 4)
         throw RunError(
             fmt::format("at time {:.6g} grains move by {:.3g} in one step and ever faster: cd.dt is too large", time(),
                         0.5 * moved));
-      fastest = std::max(fastest, fastest_velocity());
+      fastest = std::max(fastest, fastest_of(iterate_.velocity));
     }
     StageTimer timer(profile_, Stage::grains);
+    if (!compliant_) account();
     accept_velocities();
-    move(iterate_.velocity, iterate_.gradient, dt_);
-    for (Plane<D>& plane : bodies_.planes) plane.point += dt_ * plane.velocity;
-    correct_drift();
-    if constexpr (Y.friction && D == 3) turn_reactions();
-    ++steps_;
+    move(dt);
+    if (!compliant_) correct_drift();
+    history_.accept(bodies_, list_, problem_, assembly_.row_of(), dt);
   }
 
-  /// Inverse masses, hub and the columns that a step only fills.
-  void prepare_bodies() {
-    const std::size_t grains = bodies_.position.size(), count = grains + bodies_.planes.size();
+  /// Inverse masses, hub, laws and the columns that a step only fills.
+  void prepare_problem() {
+    const std::size_t grains = bodies_.position.size();
+    const std::size_t count = grains + bodies_.planes.size() + bodies_.walls.size();
+    problem_.grains = bodies_.grains();
     problem_.inverse_mass.assign(count, 0.0);
     problem_.inverse_inertia.assign(count, 0.0);
     for (std::size_t b = 0; b < grains; ++b) {
@@ -130,28 +180,57 @@ class RigidEngine final : public Engine<Y.dim> {
     problem_.hub.clear();
     for (const CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) problem_.hub.push_back({mode.direction, 1 / mode.inertia});
-    problem_.friction = friction_;
+    problem_.mobility.clear();
+    bool some = false;
+    for (const Plane<D>& plane : bodies_.planes)
+      problem_.mobility.push_back(plane.inverse_mass * plane.normal * plane.normal.transpose());
+    for (const Wall<D>& wall : bodies_.walls) problem_.mobility.push_back(wall.mobility.asDiagonal());
+    for (const Mat<D>& mobility : problem_.mobility) some = some || !mobility.isZero(0);
+    if (!some) problem_.mobility.clear();
+    problem_.laws.clear();
+    for (const PairLaw& law : laws_.pairs)
+      problem_.laws.push_back({law.friction, law.rolling_friction, law.pivoting_friction});
+    problem_.compliant = compliant_;
+    problem_.lagged = Y.friction && (compliant_ || laws_.any_tangential_restitution());
   }
 
-  /// Free velocities; returns the largest among the bodies.
-  double predict() {
+  /// Velocities at the start of the step and free velocities at its end, and how much faster than the mean a body is.
+  void predict(double dt) {
     StageTimer timer(profile_, Stage::grains);
-    const std::size_t grains = bodies_.position.size();
-    free_.velocity.resize(grains + bodies_.planes.size());
-    for (std::size_t b = 0; b < grains; ++b)
-      free_.velocity[b] = bodies_.velocity[b] + dt_ * (bodies_.gravity - bodies_.cell.rate * bodies_.velocity[b]);
-    for (std::size_t p = 0; p < bodies_.planes.size(); ++p) free_.velocity[grains + p] = bodies_.planes[p].velocity;
-    if constexpr (Y.friction) {
-      free_.spin = bodies_.spin;
-      free_.spin.resize(free_.velocity.size(), zero_spin<D>());
+    const std::size_t grains = bodies_.position.size(), planes = bodies_.planes.size();
+    const std::size_t count = grains + planes + bodies_.walls.size();
+    start_.velocity.resize(count), free_.velocity.resize(count);
+    Vec<D> mean = Vec<D>::Zero();
+    for (std::size_t b = 0; b < grains; ++b) {
+      const Vec<D>& v = start_.velocity[b] = bodies_.velocity[b];
+      free_.velocity[b] = v + dt * (bodies_.gravity - bodies_.cell.rate * v);
+      mean += free_.velocity[b] / static_cast<double>(grains);
     }
-    predict_hub();
-    double fastest = 0;
-    for (const Vec<D>& v : free_.velocity) fastest = std::max(fastest, v.squaredNorm());
-    return std::sqrt(fastest);
+    for (std::size_t p = 0; p < planes; ++p) {
+      const Plane<D>& plane = bodies_.planes[p];
+      start_.velocity[grains + p] = plane.velocity;
+      free_.velocity[grains + p] = plane.velocity + dt * plane.force * plane.inverse_mass * plane.normal;
+    }
+    for (std::size_t w = 0; w < bodies_.walls.size(); ++w) {
+      const Wall<D>& wall = bodies_.walls[w];
+      start_.velocity[grains + planes + w] = wall.velocity;
+      free_.velocity[grains + planes + w] = wall.velocity + dt * wall.mobility.cwiseProduct(wall.force);
+    }
+    for (std::size_t b = 0; b < bodies_.wall_of.size(); ++b)
+      free_.velocity[b] = free_.velocity[body_of(bodies_, static_cast<int>(b))];
+    if constexpr (Y.friction) {
+      start_.spin = bodies_.spin;
+      start_.spin.resize(count, zero_spin<D>());
+      free_.spin = start_.spin;
+    }
+    start_.gradient = bodies_.cell.rate;
+    predict_hub(dt);
+    double spread = 0;
+    for (const Vec<D>& v : free_.velocity) spread = std::max(spread, (v - mean).squaredNorm());
+    spread_ = std::sqrt(spread);
   }
 
-  void predict_hub() {
+  void predict_hub(double dt) {
     free_.hub_rate.clear();
     free_.gradient = bodies_.cell.rate;
     if (!bodies_.stress_driven()) return;
@@ -161,7 +240,7 @@ class RigidEngine final : public Engine<Y.dim> {
     const double volume = bodies_.cell.volume();
     for (const CellMode<D>& mode : bodies_.modes) {
       if (!mode.stress_driven) continue;
-      const double change = dt_ * (kinetic.cwiseProduct(mode.direction).sum() - volume * mode.load) / mode.inertia;
+      const double change = dt * (kinetic.cwiseProduct(mode.direction).sum() - volume * mode.load) / mode.inertia;
       free_.hub_rate.push_back(mode.rate + change);
       free_.gradient += change * mode.direction;
     }
@@ -175,39 +254,42 @@ class RigidEngine final : public Engine<Y.dim> {
   }
 
   void update_neighbours() {
-    list_.configure(0, skin_);
+    list_.configure(laws_.cohesion_range(), skin_);
     list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
-    std::swap(history_, carried_);
-    refill(history_, list_.size(), Reaction<Y>::Zero());
-    for (std::size_t row = 0; row < list_.size(); ++row) {
-      const int from = list_.origin()[row];
-      if (from < 0) continue;
-      // Impulses kept as vectors change sign with the order of the pair; normal and 2D components do not.
-      const bool sign_changes = Y.friction && D == 3 && list_.flipped(row);
-      history_[row] = sign_changes ? Reaction<Y>(-carried_[from]) : carried_[from];
-    }
+    history_.carry(list_);
   }
 
-  /// Assembles and solves the step's problem, again if a pair outside it would have closed.
-  void solve_contacts() {
+  const PairLaw& law_of(std::size_t row) const {
+    return laws_.pairs[law_index(bodies_, list_.pairs(), row, laws_.materials)];
+  }
+
+  /// Assembles and solves the step's problem, again if a pair outside it would have closed or if a Hertz contact was
+  /// linearised too far from where it ended.
+  void solve_contacts(const StepRule& rule) {
     {
       StageTimer timer(profile_, Stage::contacts);
       assembly_.measure(bodies_, list_);
-      assembly_.activate(list_, free_.velocity, dt_, 2 * penetration_);
+      if (cohesive_) history_.attract(bodies_, list_, laws_, assembly_, rule.dt);
+      if (compliant_) elastic_.start(assembly_, list_.size(), 1e-7 * diameter_);
+      assembly_.activate(bodies_, list_, free_.velocity, rule.dt, 2 * penetration_);
+      copy_with_room(history_.before, history_.present);
     }
     for (bool complete = false; !complete;) {
-      assemble();
+      assemble(rule);
       StageTimer timer(profile_, Stage::solve);
-      const SolveReport report = solver_.solve(problem_, options_, iterate_);
-      note(report);
-      store_reactions();
-      complete = assembly_.activate_missed(bodies_, list_, iterate_, dt_) == 0;
+      note(solver_.solve(problem_, options_, iterate_));
+      history_.store(assembly_.row_of(), iterate_);
+      complete = assembly_.activate_missed(bodies_, list_, iterate_, rule) == 0;
+      if (compliant_ &&
+          !elastic_.agrees(bodies_, laws_, list_.pairs(), assembly_, problem_, iterate_, rule.dt, options_.tolerance))
+        complete = false;
     }
   }
 
-  void assemble() {
+  void assemble(const StepRule& rule) {
     StageTimer timer(profile_, Stage::contacts);
-    assembly_.fill(bodies_, list_, restitution_, dt_, problem_);
+    assembly_.fill(bodies_, list_, laws_, rule, start_, problem_);
+    if (compliant_) elastic_.apply(bodies_, laws_, list_.pairs(), assembly_, history_.before, rule.dt, problem_);
     iterate_.velocity = free_.velocity;
     iterate_.spin = free_.spin;
     iterate_.hub_rate = free_.hub_rate;
@@ -215,26 +297,25 @@ class RigidEngine final : public Engine<Y.dim> {
     iterate_.reaction.reserve(problem_.i.capacity());
     iterate_.reaction.resize(problem_.size());
     Mat<D> virial = Mat<D>::Zero();
+    if (cohesive_) attract(virial);
     for (std::size_t k = 0; k < problem_.size(); ++k) {
-      iterate_.reaction[k] = warm_start(problem_.normal[k], history_[assembly_.row_of()[k]]);
-      const Vec<D> p = impulse_vector<Y>(problem_.normal[k], iterate_.reaction[k]);
-      add_impulse(problem_, iterate_, k, p);
-      virial += p * (problem_.distance[k] * problem_.normal[k]).transpose();
+      iterate_.reaction[k] = history_.warm_start(problem_, k, history_.present[assembly_.row_of()[k]]);
+      add_reaction(problem_, iterate_, k, iterate_.reaction[k], virial);
     }
     add_to_hub(problem_, iterate_, virial);
   }
 
-  /// The last step's impulse, put back into Coulomb's cone of the present normal.
-  Reaction<Y> warm_start(const Vec<D>& normal, const Reaction<Y>& before) const {
-    if constexpr (Y.friction && D == 3) {
-      const double r_n = normal.dot(before);
-      if (r_n <= 0) return Reaction<Y>::Zero();
-      Vec<3> tangential = before - r_n * normal;
-      const double norm = tangential.norm(), limit = friction_ * r_n;
-      if (norm > limit) tangential *= limit / norm;
-      return r_n * normal + tangential;
-    } else {
-      return before;
+  /// Gives the attraction of all pairs to their bodies.
+  void attract(Mat<D>& virial) {
+    for (std::size_t row = 0; row < list_.size(); ++row) {
+      const double impulse = history_.attracted[row];
+      if (impulse == 0) continue;
+      const int i = list_.pairs().i[row], j = list_.pairs().j[row];
+      const ContactFrame<D>& frame = assembly_.frame(row);
+      const Vec<D> p = -impulse * frame.normal;
+      push(problem_, iterate_, body_of(bodies_, i), Vec<D>(-p));
+      push(problem_, iterate_, body_of(bodies_, j), p);
+      virial += p * frame.branch.transpose();
     }
   }
 
@@ -246,32 +327,14 @@ class RigidEngine final : public Engine<Y.dim> {
     if (report.stop != StopReason::converged) ++summary_.missed;
   }
 
-  void store_reactions() {
-    refill(history_, list_.size(), Reaction<Y>::Zero());
-    for (std::size_t k = 0; k < problem_.size(); ++k) {
-      history_[assembly_.row_of()[k]] = iterate_.reaction[k];
-      GALET_ENSURE(!(problem_.normal[k].dot(impulse_vector<Y>(problem_.normal[k], iterate_.reaction[k])) <
-                     -1e-12 * iterate_.reaction[k].norm()),
-                   "rigid grains do not pull on each other");
-    }
+  void account() {
+    const double energy = dissipated_energy(problem_, start_, iterate_, partial_);
+    (energy >= 0 ? summary_.dissipated : summary_.gained) += std::abs(energy);
   }
 
-  /// Impulses kept as vectors turn with their contacts to the positions at the end of the step; normal and tangential
-  /// components need no turning.
-  void turn_reactions() {
-    for (std::size_t k = 0; k < problem_.size(); ++k) {
-      Vec<3>& reaction = history_[assembly_.row_of()[k]];
-      if (reaction.isZero(0)) continue;
-      const Vec<3>& before = problem_.normal[k];
-      const Vec<3> after = frame_of(bodies_, list_.pairs(), assembly_.row_of()[k]).normal;
-      const double normal = before.dot(reaction);
-      reaction = normal * after + carried(reaction - normal * before, before, after);
-    }
-  }
-
-  double fastest_velocity() const {
+  static double fastest_of(const Column<Vec<D>>& velocity) {
     double fastest = 0;
-    for (const Vec<D>& v : iterate_.velocity) {
+    for (const Vec<D>& v : velocity) {
       if (v != v) return v.norm();
       fastest = std::max(fastest, v.squaredNorm());
     }
@@ -286,52 +349,38 @@ class RigidEngine final : public Engine<Y.dim> {
       bodies_.velocity[b] = iterate_.velocity[b];
       if constexpr (Y.friction) bodies_.spin[b] = iterate_.spin[b];
     }
+    for (std::size_t p = 0; p < bodies_.planes.size(); ++p)
+      if (bodies_.planes[p].inverse_mass > 0) bodies_.planes[p].velocity = iterate_.velocity[grains + p];
+    for (std::size_t w = 0; w < bodies_.walls.size(); ++w)
+      bodies_.walls[w].velocity = iterate_.velocity[grains + bodies_.planes.size() + w];
+    bodies_.follow_walls();
     std::size_t m = 0;
     for (CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) mode.rate = iterate_.hub_rate[m++];
     if (!bodies_.modes.empty()) bodies_.cell.rate = velocity_gradient(bodies_.modes);
   }
 
-  /// x += scale (velocity + gradient x), and the box with it.
-  void move(const Column<Vec<D>>& velocity, const Mat<D>& gradient, double scale) {
-    const bool still = gradient.isZero(0);
-    for (std::size_t b = 0; b < bodies_.position.size(); ++b) {
-      const Vec<D> affine = still ? Vec<D>(Vec<D>::Zero()) : Vec<D>(gradient * bodies_.position[b]);
-      bodies_.position[b] += scale * (velocity[b] + affine);
-    }
-    if (!still) bodies_.cell.box += scale * (gradient * bodies_.cell.box);
+  void move(double dt) {
+    if (theta_ == 1) return advance_positions(bodies_, iterate_.velocity, iterate_.gradient, dt);
+    for (std::size_t b = 0; b < start_.velocity.size(); ++b)
+      start_.velocity[b] = theta_ * iterate_.velocity[b] + (1 - theta_) * start_.velocity[b];
+    const Mat<D> gradient = theta_ * iterate_.gradient + (1 - theta_) * start_.gradient;
+    advance_positions(bodies_, start_.velocity, gradient, dt);
   }
 
-  /// Gap of contact k of the problem at the present positions.
-  double gap_of(std::size_t k) const { return frame_of(bodies_, list_.pairs(), assembly_.row_of()[k]).gap; }
-
-  /// Projects positions so that no contact overlaps by more than half of the tolerance, when one is beyond it.
   void correct_drift() {
-    for (int round = 0; round < 3; ++round) {
-      double deepest = 0;
-      for (std::size_t k = 0; k < problem_.size(); ++k) {
-        const double gap = gap_of(k);
-        problem_.offset[k] = gap + 0.5 * penetration_;  // a displacement, per unit of "time"
-        deepest = std::min(deepest, gap);
-      }
-      if (-deepest <= penetration_) return;
-      if (round == 0) ++summary_.corrections;
-      problem_.friction = 0;
-      correction_.velocity.assign(iterate_.velocity.size(), Vec<D>::Zero());
-      if constexpr (Y.friction) correction_.spin.assign(iterate_.spin.size(), zero_spin<D>());
-      correction_.hub_rate.assign(problem_.hub.size(), 0.0);
-      correction_.gradient.setZero();
-      refill(correction_.reaction, problem_.size(), Reaction<Y>::Zero());
-      solver_.solve(problem_, {1e-3, 200}, correction_);
-      problem_.friction = friction_;
-      move(correction_.velocity, correction_.gradient, 1);
-    }
+    const DriftReport report = drift_.correct(bodies_, list_, assembly_.row_of(), penetration_, solver_, problem_);
+    if (report.corrected) ++summary_.corrections;
+    summary_.penetration = std::max(summary_.penetration, report.deepest / diameter_);
   }
 
   void fill_shown() {
     shown_.clear();
     for (std::size_t row = 0; row < list_.size(); ++row) {
-      if (history_[row].isZero(0)) continue;
+      const Reaction<Y>& reaction = history_.before[row];
+      const double attracted = cohesive_ && !history_.attracted.empty() ? history_.attracted[row] : 0;
+      const bool pressed = !reaction.isZero(0);
+      if (!pressed && attracted == 0) continue;
       const ContactFrame<D> frame = frame_of(bodies_, list_.pairs(), row);
       shown_.i.push_back(list_.pairs().i[row]);
       shown_.j.push_back(list_.pairs().j[row]);
@@ -339,25 +388,35 @@ class RigidEngine final : public Engine<Y.dim> {
       shown_.normal.push_back(frame.normal);
       shown_.branch.push_back(frame.branch);
       shown_.gap.push_back(frame.gap);
-      shown_.force.push_back(impulse_vector<Y>(frame.normal, history_[row]) / dt_);
+      shown_.force.push_back((impulse_vector<Y>(frame.normal, reaction) - attracted * frame.normal) / last_dt_);
+      if constexpr (Y.rolling) shown_.torque.push_back(torque_impulse<Y>(reaction) / last_dt_);
+      if (cohesive_) shown_.touching.push_back(pressed || frame.gap <= 0);
     }
   }
 
-  double dt_, restitution_, friction_, diameter_, penetration_;
+  double dt_;
+  double last_dt_;  ///< of the last step or part of a step, to which the impulses belong
+  double theta_;
+  LawTable laws_;
+  bool cohesive_, compliant_;
+  double diameter_, least_diameter_, penetration_;
   SolverOptions options_;
-  double skin_ = 0;
+  double skin_ = 0, spread_ = 0;
   long steps_ = 0;
 
   Bodies<Y> bodies_;
   VerletList<D> list_;
-  Column<Reaction<Y>> history_, carried_;  ///< impulses of the last step, by row of the list
+  ContactHistory<Y> history_;
   Assembly<Y> assembly_;
+  ElasticContacts<Y> elastic_;
   Problem<Y> problem_;
-  Iterate<Y> free_, iterate_, correction_;
+  Iterate<Y> start_, free_, iterate_;
   Nsgs<Y> solver_;
+  DriftCorrection<Y> drift_;
   ContactColumns<D> shown_;
   SolverSummary summary_;
   Profile profile_;
+  std::vector<double> partial_;
 };
 
 }  // namespace galet::cd

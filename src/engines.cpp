@@ -17,6 +17,8 @@ EngineKind engine_kind(const std::string& name) {
 template <int D>
 std::unique_ptr<Engine<D>> make_engine(EngineKind kind, const Scene& scene, const Derived& derived,
                                        const Sample<D>& sample) {
+  if (kind == EngineKind::md && !sample.wall.empty())
+    throw InputError("[[wall]] entries need engine cd: md has no rigid bodies");
   return kind == EngineKind::md ? md::make_engine<D>(scene, derived, sample)
                                 : cd::make_engine<D>(scene, derived, sample);
 }

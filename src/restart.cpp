@@ -80,12 +80,16 @@ void save_sample(Archive& archive, const Sample<D>& sample) {
   std::vector<Vec<D>> planes;
   for (const Plane<D>& plane : sample.planes) planes.insert(planes.end(), {plane.point, plane.normal, plane.velocity});
   put_column(archive, "sample.planes", planes);
+  std::vector<Vec<2>> drives;
+  for (const Plane<D>& plane : sample.planes) drives.emplace_back(plane.inverse_mass, plane.force);
+  put_column(archive, "sample.plane_drive", drives);
   put_column(archive, "sample.position", sample.position);
   put_column(archive, "sample.velocity", sample.velocity);
   put_column(archive, "sample.spin", sample.spin);
   put_column(archive, "sample.radius", sample.radius);
   put_column(archive, "sample.mass", sample.mass);
   archive.integers["sample.material"].assign(sample.material.begin(), sample.material.end());
+  archive.integers["sample.wall"].assign(sample.wall.begin(), sample.wall.end());
   archive.integers["sample.plane_material"].assign(sample.plane_material.begin(), sample.plane_material.end());
 }
 
@@ -103,6 +107,10 @@ Sample<D> stored_sample(const Archive& archive) {
   take_column(archive, "sample.planes", planes);
   for (std::size_t k = 0; k + 2 < planes.size(); k += 3)
     sample.planes.push_back({planes[k], planes[k + 1], planes[k + 2]});
+  std::vector<Vec<2>> drives(sample.planes.size());
+  take_column(archive, "sample.plane_drive", drives);
+  for (std::size_t k = 0; k < drives.size(); ++k)
+    sample.planes[k].inverse_mass = drives[k][0], sample.planes[k].force = drives[k][1];
   take_column(archive, "sample.position", sample.position);
   take_column(archive, "sample.velocity", sample.velocity);
   take_column(archive, "sample.spin", sample.spin);
@@ -113,6 +121,8 @@ Sample<D> stored_sample(const Archive& archive) {
   sample.material.resize(sample.count(), 0);
   const auto& plane_material = integer_column(archive, "sample.plane_material");
   sample.plane_material.assign(plane_material.begin(), plane_material.end());
+  const auto& wall = integer_column(archive, "sample.wall");
+  sample.wall.assign(wall.begin(), wall.end());
   return sample;
 }
 

@@ -44,7 +44,11 @@ Json solver_json(const SolverSummary& solver) {
           {"missed", solver.missed},
           {"worst_residual", solver.worst_residual},
           {"mean_residual", solver.residual_sum / static_cast<double>(solver.steps)},
-          {"corrections", solver.corrections}};
+          {"corrections", solver.corrections},
+          {"divided_steps", solver.divided},
+          {"largest_penetration", solver.penetration},
+          {"dissipated", solver.dissipated},
+          {"gained", solver.gained}};
 }
 
 Json compression_json(const std::optional<CompressionReport>& report) {
@@ -117,6 +121,17 @@ std::string budget_text(const Measurement& last) {
                      last[Observable::energy_residual]);
 }
 
+/// How the contact problems of a cd run went.
+std::string solver_text(const SolverSummary& solver) {
+  return fmt::format(
+      "contacts: {:.1f} sweeps and a residual of {:.2g} per solve; largest penetration {:.2g} d ({} corrections); "
+      "energy dissipated {:.6g}, made {:.2g}{}\n",
+      static_cast<double>(solver.sweeps) / static_cast<double>(solver.steps),
+      solver.residual_sum / static_cast<double>(solver.steps), solver.penetration, solver.corrections,
+      solver.dissipated, solver.gained,
+      solver.divided > 0 ? fmt::format("; {} steps taken in parts", solver.divided) : "");
+}
+
 }  // namespace
 
 std::string summary(const RunResult& result) {
@@ -134,6 +149,7 @@ std::string summary(const RunResult& result) {
     text += table.text("  ");
   }
   if (result.series.budget) text += budget_text(result.last);
+  if (result.solver.steps > 0) text += solver_text(result.solver);
   const double steps_per_second = result.wall_seconds > 0 ? static_cast<double>(result.steps) / result.wall_seconds : 0;
   text += fmt::format("cost: {} of steps ({:.0f} steps/s)\n", duration_text(result.wall_seconds), steps_per_second);
   if (result.ending != Ending::failed) text += fmt::format("state hash: {:016x}\n", result.state_hash);

@@ -315,6 +315,18 @@ void Simulation<D>::add_notes(RunResult& result) const {
         fmt::format("the contact solver missed its tolerance in {} of {} steps (worst residual {:.2g}): raise "
                     "cd.max_sweeps or lower cd.dt_factor",
                     result.solver.missed, result.solver.steps, result.solver.worst_residual));
+  if (result.solver.penetration > scene_.cd.penetration)
+    result.notes.push_back(
+        fmt::format("the largest penetration, {:.2g} d, is above cd.penetration = {:.2g}: lower cd.tolerance or cd.dt",
+                    result.solver.penetration, scene_.cd.penetration));
+  const EnergyParts energy = engine_->energy();
+  const double scale = result.solver.dissipated + energy.kinetic + energy.rotational + energy.cell;
+  if (result.solver.gained > 0.01 * scale)
+    result.notes.push_back(fmt::format(
+        "contacts have made energy: {:.3g}, {:.1f} % of what they dissipated and what moves now. Impacts of "
+        "several contacts at once do so where restitutions differ, or tangential from normal ones: lower "
+        "cd.dt, or compare with one restitution",
+        result.solver.gained, 100 * result.solver.gained / scale));
 }
 
 template class Simulation<2>;

@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cd/laws/signorini_coulomb.hpp"
+#include "cd/laws/contact_bounds.hpp"
 #include "cd/problem.hpp"
 #include "cd/residual.hpp"
 #include "cd/solvers/report.hpp"
@@ -70,7 +70,7 @@ class Nsgs {
     return static_cast<std::size_t>(std::clamp(0.2 * least / strongest, 1.0, static_cast<double>(problem.size())));
   }
 
-  /// One pass over all contacts. Returns the squared change and the squared impulses, both scaled by W_NN.
+  /// One pass over all contacts. Returns the squared change and the squared impulses, both in energy units.
   ResidualParts sweep(const Problem<Y>& problem, Iterate<Y>& iterate) {
     ResidualParts total;
     const int groups = static_cast<int>(problem.group.size()) - 1;
@@ -116,17 +116,17 @@ class Nsgs {
   static ResidualParts visit(const Problem<Y>& problem, Iterate<Y>& iterate, const Mat<D>& gradient, std::size_t k,
                              Mat<D>& virial) {
     if (problem.wn[k] == 0) return {};
-    const Vec<D> u = relative_velocity(problem, iterate, gradient, k);
+    const Vec<D>& n = problem.normal[k];
     const Reaction<Y> before = iterate.reaction[k];
-    const Reaction<Y> after = solve_contact<Y>(problem, k, u, before);
+    const Components<Y> r = components<Y>(n, before);
+    const Reaction<Y> after =
+        composed<Y>(n, solve_contact<Y>(problem, k, law_motion(problem, iterate, gradient, k, r), r));
     const Reaction<Y> change = after - before;
-    const double squared_change = change.squaredNorm();
-    if (squared_change == 0) return {0, after.squaredNorm() * problem.wn[k]};
+    const double impulse = weighted_square(problem, k, after);
+    if (change.isZero(0)) return {0, impulse};
     iterate.reaction[k] = after;
-    const Vec<D> p = impulse_vector<Y>(problem.normal[k], change);
-    add_impulse(problem, iterate, k, p);
-    virial += p * (problem.distance[k] * problem.normal[k]).transpose();
-    return {squared_change * problem.wn[k], after.squaredNorm() * problem.wn[k]};
+    add_reaction(problem, iterate, k, change, virial);
+    return {weighted_square(problem, k, change), impulse};
   }
 
   void restart_momentum(const Iterate<Y>& iterate) {

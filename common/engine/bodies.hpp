@@ -12,6 +12,14 @@
 
 namespace galet {
 
+/// A rough wall: a rigid body of grains that moves without turning.
+template <int D>
+struct Wall {
+  Vec<D> velocity = Vec<D>::Zero();
+  Vec<D> force = Vec<D>::Zero();
+  Vec<D> mobility = Vec<D>::Zero();  ///< 1 / mass along its free directions, 0 along the others
+};
+
 template <Layout Y>
 struct Bodies {
   static constexpr int D = Y.dim;
@@ -27,6 +35,8 @@ struct Bodies {
   std::vector<CellMode<D>> modes;
   std::vector<Plane<D>> planes;
   std::vector<int> plane_material;
+  std::vector<Wall<D>> walls;
+  std::vector<int> wall_of;  ///< index of each grain's wall, or -1; empty: there are no walls
   Vec<D> gravity = Vec<D>::Zero();
 
   int grains() const { return static_cast<int>(position.size()); }
@@ -52,9 +62,36 @@ struct Bodies {
     material.resize(position.size(), 0);
     plane_material = sample.plane_material;
     plane_material.resize(planes.size(), 0);
+    start_walls(scene, sample);
     modes = cell_modes<D>(scene, derived, sample);
     if (!modes.empty()) cell.rate = velocity_gradient(modes);
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
+  }
+
+  void start_walls(const Scene& scene, const Sample<D>& sample) {
+    wall_of = sample.wall;
+    walls.assign(wall_of.empty() ? 0 : scene.walls.size(), {});
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const WallSpec& spec = scene.walls[w];
+      double total = 0;
+      for (int i = 0; i < grains(); ++i)
+        if (wall_of[i] == static_cast<int>(w)) total += mass[i];
+      for (int a = 0; a < D; ++a) {
+        if (!spec.velocity.empty()) walls[w].velocity[a] = spec.velocity[a];
+        if (!spec.force.empty()) walls[w].force[a] = spec.force[a];
+        if (!spec.free.empty() && spec.free[a]) walls[w].mobility[a] = 1 / spec.mass.value_or(total);
+      }
+    }
+    follow_walls();
+  }
+
+  /// Grains of walls move as these do.
+  void follow_walls() {
+    for (std::size_t i = 0; i < wall_of.size(); ++i) {
+      if (wall_of[i] < 0) continue;
+      velocity[i] = walls[wall_of[i]].velocity;
+      if constexpr (Y.friction) spin[i] = zero_spin<D>();
+    }
   }
 
   /// Kinetic, rotational, cell and gravity parts of the energy.
@@ -99,8 +136,12 @@ struct Bodies {
       mode_columns.insert(mode_columns.end(), {mode.rate, mode.load, mode.inertia});
     }
     std::vector<double>& points = archive.reals["planes.point"];
-    points.clear();
-    for (const Plane<D>& plane : planes) append(points, plane.point);
+    std::vector<double>& velocities = archive.reals["planes.velocity"];
+    points.clear(), velocities.clear();
+    for (const Plane<D>& plane : planes) append(points, plane.point), append(velocities, plane.velocity);
+    std::vector<double>& moving = archive.reals["walls.velocity"];
+    moving.clear();
+    for (const Wall<D>& wall : walls) append(moving, wall.velocity);
     archive.integers["layout"] = {Y.dim, Y.friction, Y.rolling};
   }
 
@@ -128,6 +169,11 @@ struct Bodies {
     numbers.resize(D * planes.size());
     take_column(archive, "planes.point", numbers);
     for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].point);
+    take_column(archive, "planes.velocity", numbers);
+    for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].velocity);
+    numbers.resize(D * walls.size());
+    take_column(archive, "walls.velocity", numbers);
+    for (std::size_t w = 0; w < walls.size(); ++w) extract(numbers.data() + D * w, walls[w].velocity);
   }
 };
 

@@ -47,6 +47,10 @@ struct SolverSummary {
   double worst_residual = 0;
   double residual_sum = 0;  ///< sum over the steps of the residual reached
   long corrections = 0;     ///< steps whose positions were corrected for drift
+  long divided = 0;         ///< steps taken in parts because grains moved too far in one
+  double penetration = 0;   ///< largest overlap that a step left behind, in units of d (rigid contacts)
+  double dissipated = 0;    ///< energy that contacts have taken from the grains' motion (impacts, friction, rolling)
+  double gained = 0;        ///< energy that steps have put into it: an artefact of unlike restitutions in one scene
 };
 
 template <int D>

@@ -119,6 +119,10 @@ void add_listed_grains(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().material; },
                   .fallback = "[material]",
                   .doc = "name of its material"});
+  rows.push_back({.path = "grain.wall",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().wall; },
+                  .fallback = "none",
+                  .doc = "cd: name of the wall that it is glued to"});
 }
 
 void add_initial(Rows& rows) {
@@ -191,10 +195,49 @@ void add_planes(Rows& rows) {
                   .quantity = Quantity::velocity,
                   .fallback = "at rest",
                   .doc = "imposed velocity"});
+  rows.push_back({.path = "plane.mass",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().mass; },
+                  .quantity = Quantity::mass,
+                  .range = above(0),
+                  .fallback = "none: its velocity is imposed",
+                  .doc = "cd: the plane is a body of this mass that moves freely along its normal (`velocity` is then "
+                         "where it starts, and stays imposed across the normal)"});
+  rows.push_back({.path = "plane.force",
+                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().force; },
+                  .quantity = Quantity::force,
+                  .doc = "on a plane with mass, along its normal: > 0 presses it against the grains. Gravity does not "
+                         "act on planes"});
   rows.push_back({.path = "plane.material",
                   .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
                   .fallback = "[material]",
                   .doc = "name of its material"});
+}
+
+void add_walls(Rows& rows) {
+  rows.push_back({.path = "wall.name",
+                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().name; },
+                  .required = true,
+                  .doc = "what its grains call it"});
+  rows.push_back({.path = "wall.velocity",
+                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().velocity; },
+                  .quantity = Quantity::velocity,
+                  .fallback = "at rest",
+                  .doc = "imposed; where the wall is free: at the start"});
+  rows.push_back({.path = "wall.free",
+                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().free; },
+                  .fallback = "false in each direction",
+                  .doc = "per direction: moved by the grains' forces and `force`, not by `velocity`"});
+  rows.push_back({.path = "wall.force",
+                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().force; },
+                  .quantity = Quantity::force,
+                  .fallback = "none",
+                  .doc = "on the wall, along its free directions"});
+  rows.push_back({.path = "wall.mass",
+                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().mass; },
+                  .quantity = Quantity::mass,
+                  .range = above(0),
+                  .fallback = "that of its grains",
+                  .doc = "inertia along the free directions"});
 }
 
 void add_loading(Rows& rows) {
@@ -301,6 +344,16 @@ void add_engines(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.cd.penetration; },
                   .range = above(0),
                   .doc = "largest penetration that drift may reach, in units of d"});
+  rows.push_back({.path = "cd.theta",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.theta; },
+                  .range = between(0.5, 1),
+                  .doc = "positions advance with theta v+ + (1 - theta) v-. 1: what ends a step is what contacts saw, "
+                         "so that no impact penetrates; 0.5: free flight of second order, but an impact may penetrate "
+                         "by (1 - e) u dt / 2"});
+  rows.push_back({.path = "cd.compliance",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.compliance; },
+                  .doc = "contacts have the stiffness of the material (normal, tangential, rolling), implicit in the "
+                         "step, which may be far above tau_c; false: rigid"});
 }
 
 void add_run(Rows& rows) {
@@ -359,9 +412,9 @@ void add_compare(Rows& rows) {
 const std::vector<SceneField>& scene_fields() {
   static const Rows table = [] {
     Rows rows;
-    for (const auto add :
-         {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material, add_other_materials,
-          add_pairs, add_initial, add_cell, add_planes, add_loading, add_drives, add_engines, add_run, add_compare})
+    for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material,
+                           add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_walls, add_loading,
+                           add_drives, add_engines, add_run, add_compare})
       add(rows);
     return rows;
   }();
@@ -402,6 +455,13 @@ const std::vector<SceneSection>& scene_sections() {
        .list = true,
        .doc = "A plane boundary, one table per plane; parallel to the periodic directions.",
        .append = [](Scene& s) { s.planes.emplace_back(); }},
+      {.name = "wall",
+       .list = true,
+       .doc =
+           "A rough wall, one table per wall (cd): the [[grain]] entries that name it, glued together. It is one rigid "
+           "body that moves without turning, in each direction as imposed or as forces move it. Gravity does not act "
+           "on it.",
+       .append = [](Scene& s) { s.walls.emplace_back(); }},
       {.name = "loading", .doc = "What is imposed on the sample."},
       {.name = "drive",
        .list = true,

@@ -33,6 +33,13 @@ void add_surface(Rows& rows) {
                   .range = at_least(0),
                   .doc = "the same for sliding: tangential damping constant / its critical value 2 sqrt(m_T K_T), "
                          "1/m_T = 1/m* + R_i^2/I_i + R_j^2/I_j"});
+  rows.push_back({.path = "material.tangential_restitution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.material.tangential_restitution; },
+                  .symbol = "e_T",
+                  .range = between(0, 1),
+                  .doc = "cd: tangential restitution, of sliding, rolling and pivoting: a contact that sticks in an "
+                         "impact leaves with -e_T "
+                         "times its tangential velocity"});
   rows.push_back({.path = "material.viscous_convention",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.convention; },
                   .choices = {"elastic", "total"},
@@ -86,13 +93,13 @@ void add_rolling(Rows& rows) {
                   .symbol = "mu_R",
                   .quantity = Quantity::length,
                   .range = at_least(0),
-                  .doc = "md: rolling torques are bounded by this length times the repulsive force"});
+                  .doc = "rolling torques are bounded by this length times the repulsive force"});
   rows.push_back({.path = "material.pivoting_friction",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.pivoting_friction; },
                   .symbol = "mu_P",
                   .quantity = Quantity::length,
                   .range = at_least(0),
-                  .doc = "md, 3D: the same for rotation about the normal"});
+                  .doc = "3D: the same for rotation about the normal"});
   rows.push_back({.path = "material.rolling_stiffness_ratio",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.rolling_stiffness_ratio; },
                   .range = above(0),
@@ -103,27 +110,27 @@ void add_cohesion(Rows& rows) {
   rows.push_back({.path = "material.cohesion_law",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.cohesion_law; },
                   .choices = {"constant", "square_root"},
-                  .doc = "md: `constant`: attraction F0 in contact, F0 (1 - g / D0) across a gap g < D0; "
-                         "`square_root`: sqrt(4 K_N F0 h) in contact (linear law, no range)"});
+                  .doc = "`constant`: attraction F0 in contact, F0 (1 - g / D0) across a gap g < D0; "
+                         "`square_root` (md): sqrt(4 K_N F0 h) in contact (linear law, no range)"});
   rows.push_back({.path = "material.cohesion_force",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.cohesion_force; },
                   .symbol = "F0",
                   .quantity = Quantity::force,
                   .range = above(0),
                   .fallback = "no cohesion",
-                  .doc = "md: largest traction that a contact bears"});
+                  .doc = "largest traction that a contact bears"});
   rows.push_back({.path = "material.cohesion_number",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.cohesion_number; },
                   .symbol = "eta",
                   .range = above(0),
                   .fallback = "no cohesion",
-                  .doc = "md: F0 / (P d^(D-1)), in place of `cohesion_force`; needs `loading.pressure`"});
+                  .doc = "F0 / (P d^(D-1)), in place of `cohesion_force`; needs `loading.pressure`"});
   rows.push_back({.path = "material.cohesion_range",
                   .target = [](Scene& s) -> FieldTarget { return &s.material.cohesion_range; },
                   .symbol = "D0",
                   .quantity = Quantity::length,
                   .range = at_least(0),
-                  .doc = "md, constant law: length across which grains attract"});
+                  .doc = "constant law: length across which grains attract"});
 }
 
 }  // namespace
@@ -165,6 +172,12 @@ void add_other_materials(Rows& rows) {
                   .range = at_least(0),
                   .fallback = "as in [material]",
                   .doc = "in place of `restitution`"});
+  rows.push_back({.path = "other_material.tangential_restitution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.other_materials.back().tangential_restitution; },
+                  .symbol = "e_T",
+                  .range = between(0, 1),
+                  .fallback = "as in [material]",
+                  .doc = "cd: tangential restitution between grains of this material"});
   rows.push_back({.path = "other_material.stiffness_level",
                   .target = [](Scene& s) -> FieldTarget { return &s.other_materials.back().stiffness_level; },
                   .symbol = "kappa",
@@ -237,6 +250,12 @@ void add_pairs(Rows& rows) {
                   .range = between(0, 1),
                   .fallback = "by the mixing rules",
                   .doc = "normal restitution"});
+  rows.push_back({.path = "material_pair.tangential_restitution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.pairs.back().tangential_restitution; },
+                  .symbol = "e_T",
+                  .range = between(0, 1),
+                  .fallback = "by the mixing rules",
+                  .doc = "cd: tangential restitution"});
   rows.push_back({.path = "material_pair.normal_stiffness",
                   .target = [](Scene& s) -> FieldTarget { return &s.pairs.back().normal_stiffness; },
                   .symbol = "K_N",

@@ -234,6 +234,10 @@ void check_planes(Report& report) {
     report.components(path + "point", plane.point.size(), false);
     report.components(path + "normal", plane.normal.size(), false);
     report.components(path + "velocity", plane.velocity.size());
+    report.rule(!plane.mass || scene.engine == EngineKind::cd, path + "mass",
+                path + "mass needs engine = \"cd\": planes of md have imposed velocities", {"engine"});
+    report.rule(plane.mass || plane.force == 0, path + "force",
+                path + "force needs " + path + "mass: a plane without mass has an imposed velocity", {path + "mass"});
     if (plane.normal.size() != static_cast<std::size_t>(scene.dimension)) continue;
     const bool zero = std::all_of(plane.normal.begin(), plane.normal.end(), [](double n) { return n == 0; });
     report.rule(!zero, path + "normal", path + "normal is zero: it must point to the grains' side");
@@ -386,6 +390,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_initial(report);
   check_cell(report);
   check_planes(report);
+  check_walls(report);
   check_loading(report);
   check_run(report);
   check_compare(report);

@@ -55,18 +55,21 @@ void check_restitution(Report& report, const std::string& path, std::optional<do
 void check_stiffness_given(Report& report) {
   const Scene& scene = report.scene;
   const MaterialSpec& material = scene.material;
-  const bool md = scene.engine == EngineKind::md;
+  const bool md = scene.engine == EngineKind::md || scene.cd.compliance;
+  const std::string_view who = scene.engine == EngineKind::md ? "engine md" : "cd.compliance";
   if (hertz(scene)) {
-    report.rule(!md || material.stiffness_level || material.young_modulus, "material",
-                "material.stiffness_level or material.young_modulus is needed by engine md",
-                {"engine", "material.normal_law", "material.stiffness_level", "material.young_modulus"});
+    report.rule(
+        !md || material.stiffness_level || material.young_modulus, "material",
+        fmt::format("material.stiffness_level or material.young_modulus is needed by {}", who),
+        {"engine", "cd.compliance", "material.normal_law", "material.stiffness_level", "material.young_modulus"});
     report.rule(!md || material.poisson_ratio, "material",
                 "material.poisson_ratio is needed with normal_law = \"hertz\"",
-                {"engine", "material.normal_law", "material.poisson_ratio"});
+                {"engine", "cd.compliance", "material.normal_law", "material.poisson_ratio"});
   } else {
-    report.rule(!md || material.stiffness_level || material.normal_stiffness, "material",
-                "material.stiffness_level or material.normal_stiffness is needed by engine md",
-                {"engine", "material.normal_law", "material.stiffness_level", "material.normal_stiffness"});
+    report.rule(
+        !md || material.stiffness_level || material.normal_stiffness, "material",
+        fmt::format("material.stiffness_level or material.normal_stiffness is needed by {}", who),
+        {"engine", "cd.compliance", "material.normal_law", "material.stiffness_level", "material.normal_stiffness"});
   }
 }
 
@@ -108,20 +111,50 @@ void check_cohesion(Report& report) {
         {"cell.size", "cell.periodic"});
 }
 
-/// What the rigid engine has no law for yet.
-void check_rigid(Report& report) {
+/// What one engine has a law for and the other has not.
+void check_engine_laws(Report& report) {
   const Scene& scene = report.scene;
-  if (scene.engine != EngineKind::cd) return;
-  const auto refuse = [&](bool present, const std::string& path, const std::string& what) {
-    report.rule(!present, path, fmt::format("{}: the cd engine has no {} yet; use engine = \"md\"", path, what),
+  const MaterialSpec& material = scene.material;
+  const bool rigid = scene.engine == EngineKind::cd;
+  report.rule(
+      !rigid || material.cohesion_law != CohesionLaw::square_root, "material.cohesion_law",
+      "material.cohesion_law: engine cd has the law \"constant\" only: the square root is one of the deflection",
+      {"engine"});
+  const auto rebound = [&](std::optional<double> value, const std::string& path) {
+    report.rule(rigid || value.value_or(0) == 0, path + "tangential_restitution",
+                path +
+                    "tangential_restitution needs engine = \"cd\": in md it follows from tangential stiffness and "
+                    "damping",
                 {"engine"});
   };
-  refuse(scene.material.rolling_friction > 0, "material.rolling_friction", "rolling resistance");
-  refuse(scene.material.pivoting_friction > 0, "material.pivoting_friction", "pivoting resistance");
-  refuse(scene.material.cohesion_force.has_value(), "material.cohesion_force", "cohesion");
-  refuse(scene.material.cohesion_number.has_value(), "material.cohesion_number", "cohesion");
-  refuse(!scene.other_materials.empty(), "other_material", "further materials");
-  refuse(!scene.pairs.empty(), "material_pair", "pairs of materials");
+  rebound(material.tangential_restitution, "material.");
+  for (std::size_t k = 0; k < scene.other_materials.size(); ++k)
+    rebound(scene.other_materials[k].tangential_restitution, fmt::format("other_material[{}].", k));
+  for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+    rebound(scene.pairs[k].tangential_restitution, fmt::format("material_pair[{}].", k));
+}
+
+/// Elastic contacts of cd.
+void check_compliance(Report& report) {
+  const Scene& scene = report.scene;
+  const MaterialSpec& material = scene.material;
+  if (!scene.cd.compliance || scene.engine != EngineKind::cd) return;
+  const std::string needs = "cd.compliance";
+  report.rule(material.convention == DampingConvention::total, needs,
+              "cd.compliance needs material.viscous_convention = \"total\": the implicit contact bounds the repulsive "
+              "force as a whole",
+              {"material.viscous_convention", "engine"});
+  report.rule(material.tangential_damping_ratio == 0, "material.tangential_damping_ratio",
+              "material.tangential_damping_ratio: the elastic contacts of cd have no tangential dashpot; leave it out",
+              {needs, "engine"});
+  report.rule(scene.cd.theta == 1, "cd.theta", "cd.theta below 1 and cd.compliance exclude each other", {needs});
+  bool rebounds = material.tangential_restitution > 0;
+  for (const OtherMaterial& other : scene.other_materials)
+    rebounds = rebounds || other.tangential_restitution.value_or(0) > 0;
+  for (const MaterialPair& pair : scene.pairs) rebounds = rebounds || pair.tangential_restitution.value_or(0) > 0;
+  report.rule(!rebounds, needs,
+              "cd.compliance and a tangential_restitution exclude each other: tangential springs rebound",
+              {"material.tangential_restitution", "other_material", "material_pair"});
 }
 
 void check_other_material(Report& report, std::size_t k) {
@@ -151,7 +184,8 @@ void check_material(Report& report) {
   report.rule(scene.dimension == 3 || material.pivoting_friction == 0, "material.pivoting_friction",
               "material.pivoting_friction needs dimension = 3: disks turn about one axis only", {"dimension"});
   check_cohesion(report);
-  check_rigid(report);
+  check_engine_laws(report);
+  check_compliance(report);
   for (std::size_t k = 0; k < scene.other_materials.size(); ++k) check_other_material(report, k);
 }
 

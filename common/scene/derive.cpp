@@ -46,26 +46,37 @@ void derive_times(const Scene& scene, Derived& derived) {
   }
 }
 
-/// Shortest of the times in which something moves by its own size.
-double shortest_time(const Scene& scene, const Derived& derived) {
+/// A time in which something moves by its own size, and what it is.
+struct NamedTime {
+  double value;
+  std::string_view name;
+};
+
+/// The shortest of them.
+NamedTime shortest_time(const Scene& scene, const Derived& derived) {
   const double d = derived.grains.mean_diameter;
-  double shortest = derived.duration;
-  const auto consider = [&](double time) {
-    if (time > 0 && std::isfinite(time)) shortest = std::min(shortest, time);
+  NamedTime shortest{derived.duration, "the duration"};
+  const auto consider = [&](double time, std::string_view name) {
+    if (time > 0 && std::isfinite(time) && time < shortest.value) shortest = {time, name};
   };
-  if (derived.inertial_time) consider(*derived.inertial_time);
-  if (derived.shear_rate) consider(1 / std::abs(*derived.shear_rate));
-  if (derived.grains.largest_speed > 0) consider(d / derived.grains.largest_speed);
+  if (derived.inertial_time) consider(*derived.inertial_time, "tau_i");
+  if (derived.shear_rate) consider(1 / std::abs(*derived.shear_rate), "1/shear rate");
+  if (derived.grains.largest_speed > 0) consider(d / derived.grains.largest_speed, "d / largest speed at the start");
   double gravity = 0;
   for (double component : scene.loading.gravity) gravity += component * component;
-  if (gravity > 0) consider(std::sqrt(d / std::sqrt(gravity)));
+  if (gravity > 0) consider(std::sqrt(d / std::sqrt(gravity)), "sqrt(d / g)");
   for (const PlaneSpec& plane : scene.planes) {
     double speed = 0;
     for (double component : plane.velocity) speed += component * component;
-    if (speed > 0) consider(d / std::sqrt(speed));
+    if (speed > 0) consider(d / std::sqrt(speed), "d / speed of a plane");
+    if (plane.mass && plane.force != 0)
+      consider(std::sqrt(d * *plane.mass / std::abs(plane.force)), "sqrt(d mass / force) of a plane");
   }
   for (const CellDrive& drive : scene.loading.drives)
-    if (drive.rate && *drive.rate != 0) consider(1 / std::abs(*drive.rate));
+    if (drive.rate && *drive.rate != 0) consider(1 / std::abs(*drive.rate), "1/rate of a drive");
+  for (const PairLaw& law : derived.laws.pairs)
+    if (law.cohesion_range > 0)
+      consider(std::sqrt(law.cohesion_range * derived.grains.least_mass / law.cohesion), "sqrt(D0 m / F0)");
   return shortest;
 }
 
@@ -101,7 +112,10 @@ Derived derive(const Scene& scene, const GrainFacts& facts) {
   derive_material(scene, derived);
   derive_times(scene, derived);
   derive_md_step(scene, derived);
-  derived.cd_dt = scene.cd.dt ? *scene.cd.dt : scene.cd.dt_factor * shortest_time(scene, derived);
+  const NamedTime shortest = shortest_time(scene, derived);
+  derived.cd_dt = scene.cd.dt ? *scene.cd.dt : scene.cd.dt_factor * shortest.value;
+  derived.cd_dt_from =
+      scene.cd.dt ? "cd.dt" : fmt::format("{:g} (cd.dt_factor) * {}", scene.cd.dt_factor, shortest.name);
   return derived;
 }
 
@@ -180,6 +194,11 @@ void explain_laws(const Scene& scene, const Derived& derived, std::vector<Derive
       const char* mixed = a == b ? "the material's" : "mixed, or as given for the pair";
       add("mu", law.friction, mixed);
       add("e", law.restitution, "of a head-on collision, exact for the law");
+      if (law.tangential_restitution > 0) add("e_T", law.tangential_restitution, mixed);
+      if (law.rolling_friction > 0) add("mu_R", law.rolling_friction, mixed);
+      if (law.pivoting_friction > 0) add("mu_P", law.pivoting_friction, mixed);
+      if (law.cohesion > 0) add("F0", law.cohesion, material.cohesion_number ? "eta P d^(D-1)" : mixed);
+      if (law.cohesion_range > 0) add("D0", law.cohesion_range, "cohesion_range");
       if (!laws.stiff) continue;
       add("zeta", law.damping_ratio, material.damping_ratio ? mixed : "inverted so that a collision has exactly e");
       if (law.tangential_damping_ratio > 0) add("zeta_T", law.tangential_damping_ratio, "tangential_damping_ratio");
@@ -188,10 +207,6 @@ void explain_laws(const Scene& scene, const Derived& derived, std::vector<Derive
           : material.normal_stiffness ? mixed
                                       : "kappa P d^(D-2)");
       add("K_T/K_N", law.tangential_ratio, hertz ? "4 G*/E*, from nu" : "tangential_stiffness_ratio");
-      if (law.rolling_friction > 0) add("mu_R", law.rolling_friction, mixed);
-      if (law.pivoting_friction > 0) add("mu_P", law.pivoting_friction, mixed);
-      if (law.cohesion > 0) add("F0", law.cohesion, material.cohesion_number ? "eta P d^(D-1)" : mixed);
-      if (law.cohesion_range > 0) add("D0", law.cohesion_range, "cohesion_range");
     }
   if (derived.stiffness_level)
     lines.push_back({"kappa", fmt::format("{:.6g}", *derived.stiffness_level),
@@ -228,7 +243,10 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   add("md dt", derived.md_dt,
       scene.md.dt ? "md.dt" : "tau_c of the lightest pair / md.steps_per_contact, within the bound");
   add("md dt bound", derived.md_dt_stable, "stability: stiffness, least mass, damping, 6 (2D) or 12 (3D) neighbours");
-  add("cd dt", derived.cd_dt, scene.cd.dt ? "cd.dt" : "cd.dt_factor * shortest of tau_i, 1/rate, d/speed, sqrt(d/g)");
+  add("cd dt", derived.cd_dt, derived.cd_dt_from.c_str());
+  add("cd dt u/d", 0.25 * grains.least_diameter / grains.mean_diameter,
+      "a step in which grains move further is taken in parts");
+  add("cd penetration", scene.cd.penetration, "cd.penetration: largest overlap that drift may reach, in units of d");
   return lines;
 }
 

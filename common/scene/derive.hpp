@@ -43,7 +43,8 @@ struct Derived {
   std::optional<double> md_dt_stable;       ///< its stability bound
   double md_stiffest = 0;                   ///< K_N that the bound allows for
   double cd_dt = 0;
-  double duration = 0;  ///< simulated time of the run
+  std::string cd_dt_from;  ///< where it comes from, in words
+  double duration = 0;     ///< simulated time of the run
 };
 
 /// Throws InputError when the scene lacks what the derivation needs (e.g. a duration).

@@ -77,6 +77,7 @@ std::vector<Plane<D>> scene_planes(const Scene& scene) {
     if (!(plane.normal.norm() > 0)) throw InputError(path + ", normal: must not be the zero vector");
     plane.normal.normalize();
     if (!spec.velocity.empty()) plane.velocity = vector_of<D>(spec.velocity, path + ", velocity");
+    if (spec.mass) plane.inverse_mass = 1 / *spec.mass, plane.force = spec.force;
     planes.push_back(plane);
   }
   return planes;
@@ -258,6 +259,14 @@ Cell<D> enclosing_cell(const Sample<D>& sample, const std::array<bool, D>& perio
   return cell;
 }
 
+/// Index of the wall of that name; -1 for no name.
+int wall_index(const Scene& scene, const std::string& name) {
+  if (name.empty()) return -1;
+  for (std::size_t k = 0; k < scene.walls.size(); ++k)
+    if (scene.walls[k].name == name) return static_cast<int>(k);
+  throw InputError("there is no wall called '" + name + "'");
+}
+
 template <int D>
 Sample<D> listed_sample(const Scene& scene) {
   const std::vector<ListedGrain>& listed = scene.grains.listed;
@@ -277,6 +286,8 @@ Sample<D> listed_sample(const Scene& scene) {
   if (scene.cell.size.empty() && any_periodic) throw InputError("cell.size: listed grains in a periodic cell need it");
   sample.cell = scene.cell.size.empty() ? enclosing_cell<D>(sample, periodic) : initial_cell<D>(scene, 0);
   sample.planes = scene_planes<D>(scene);
+  if (!scene.walls.empty())
+    for (const ListedGrain& grain : listed) sample.wall.push_back(wall_index(scene, grain.wall));
   wrap_positions<D>(sample);
   refuse_overlaps<D>(sample, listed_overlap);
   assign_materials<D>(scene, sample);

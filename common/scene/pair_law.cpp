@@ -20,6 +20,7 @@ struct Material {
   double poisson = 0;
   double tangential_ratio = 0.5;  ///< linear only
   bool stiff = false;
+  double tangential_restitution = 0;
 };
 
 double power_of(double base, int exponent) { return std::pow(base, exponent); }
@@ -35,6 +36,7 @@ Material base_material(const Scene& scene, std::optional<double> pressure, doubl
   const MaterialSpec& spec = scene.material;
   Material material{spec.friction, spec.rolling_friction, spec.pivoting_friction, 0, 0, spec.restitution};
   material.zeta = damping_ratio(spec, spec.restitution, spec.damping_ratio);
+  material.tangential_restitution = spec.tangential_restitution;
   if (spec.cohesion_force) material.cohesion = *spec.cohesion_force;
   if (spec.cohesion_number && pressure)
     material.cohesion = *spec.cohesion_number * *pressure * power_of(d, scene.dimension - 1);
@@ -68,6 +70,7 @@ std::vector<Material> materials_of(const Scene& scene, std::optional<double> pre
   for (const OtherMaterial& other : scene.other_materials) {
     Material material = base;
     material.friction = other.friction.value_or(base.friction);
+    material.tangential_restitution = other.tangential_restitution.value_or(base.tangential_restitution);
     material.rolling_friction = other.rolling_friction.value_or(base.rolling_friction);
     material.pivoting_friction = other.pivoting_friction.value_or(base.pivoting_friction);
     material.cohesion = other.cohesion_force.value_or(base.cohesion);
@@ -110,6 +113,7 @@ PairLaw mix(const MaterialSpec& spec, const Material& a, const Material& b) {
   law.restitution = a.restitution && a.restitution == b.restitution
                         ? *a.restitution
                         : restitution_of_damping(law.damping_ratio, law.convention, law.normal_law);
+  law.tangential_restitution = std::min(a.tangential_restitution, b.tangential_restitution);
   law.friction = std::min(a.friction, b.friction);
   law.rolling_friction = std::min(a.rolling_friction, b.rolling_friction);
   law.pivoting_friction = std::min(a.pivoting_friction, b.pivoting_friction);
@@ -120,6 +124,7 @@ PairLaw mix(const MaterialSpec& spec, const Material& a, const Material& b) {
 
 void apply(const MaterialSpec& spec, const MaterialPair& pair, PairLaw& law) {
   if (pair.friction) law.friction = *pair.friction;
+  if (pair.tangential_restitution) law.tangential_restitution = *pair.tangential_restitution;
   if (pair.rolling_friction) law.rolling_friction = *pair.rolling_friction;
   if (pair.pivoting_friction) law.pivoting_friction = *pair.pivoting_friction;
   if (pair.cohesion_force) law.cohesion = *pair.cohesion_force;
@@ -163,6 +168,14 @@ bool LawTable::any_rotation() const {
 bool LawTable::any_rolling() const {
   return std::any_of(pairs.begin(), pairs.end(),
                      [](const PairLaw& law) { return law.rolling_friction > 0 || law.pivoting_friction > 0; });
+}
+
+bool LawTable::any_cohesion() const {
+  return std::any_of(pairs.begin(), pairs.end(), [](const PairLaw& law) { return law.cohesion > 0; });
+}
+
+bool LawTable::any_tangential_restitution() const {
+  return std::any_of(pairs.begin(), pairs.end(), [](const PairLaw& law) { return law.tangential_restitution > 0; });
 }
 
 double normal_coefficient(const PairLaw& law, double reduced_radius) {

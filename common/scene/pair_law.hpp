@@ -4,7 +4,7 @@
 //   linear   K_N, K_T   two half springs in series, K = 2 K_i K_j / (K_i + K_j)
 //   hertz    1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j, 1/G* = 2 (2 - nu_i)(1 + nu_i)/E_i + the same of j,
 //            K_T / K_N = 4 G* / E* (Johnson 1985; equal materials: (2 - 2 nu)/(2 - nu))
-//   mu, mu_R, mu_P      the smaller one: the weaker surface yields
+//   mu, mu_R, mu_P, e_T the smaller one: the weaker surface yields
 //   zeta, zeta_T        arithmetic mean (in terms of e nearly the geometric mean)
 //   F0                  geometric mean, as for surface energies
 #pragma once
@@ -25,6 +25,7 @@ struct PairLaw {
   double damping_ratio = 0;             ///< zeta
   double tangential_damping_ratio = 0;  ///< zeta_T
   double restitution = 1;               ///< e of a head-on collision without cohesion
+  double tangential_restitution = 0;    ///< e_T (cd): of sliding, rolling and pivoting
   double friction = 0;                  ///< mu
   double rolling_friction = 0;          ///< mu_R (length)
   double pivoting_friction = 0;         ///< mu_P (length)
@@ -45,6 +46,8 @@ struct LawTable {
   double cohesion_range() const;  ///< largest one
   bool any_rotation() const;
   bool any_rolling() const;
+  bool any_cohesion() const;
+  bool any_tangential_restitution() const;
 };
 
 /// `pressure`: what stiffness level and cohesion number refer to; `diameter`: d.

@@ -28,6 +28,7 @@ struct ListedGrain {
   std::vector<double> spin = {};      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
   std::string material = {};  ///< name; empty: [material]
+  std::string wall = {};      ///< cd: name of the wall that it is glued to; empty: none
 };
 
 /// Grains (by number) that are of a further material: [[group]] entries. Who belongs to a group is drawn from the seed.
@@ -67,6 +68,7 @@ struct MaterialSpec {
   std::optional<double> restitution;                 ///< e in [0, 1] (md: (0, 1])
   std::optional<double> damping_ratio;               ///< zeta >= 0 (excludes restitution)
   double tangential_damping_ratio = 0;               ///< zeta_T >= 0: tangential viscosity / its own critical value
+  double tangential_restitution = 0;                 ///< cd: e_T in [0, 1]
   NormalLaw normal_law = NormalLaw::linear;          ///< of all materials
   std::optional<double> stiffness_level;             ///< kappa; needs a pressure (linear: K_N / (P d^(D-2)))
   std::optional<double> normal_stiffness;            ///< linear: K_N > 0 (excludes stiffness_level)
@@ -88,7 +90,7 @@ struct OtherMaterial {
   std::string name = {};
   std::optional<double> density = {};  ///< of its grains (default: as the other grains)
   std::optional<double> friction = {};
-  std::optional<double> restitution = {}, damping_ratio = {};
+  std::optional<double> restitution = {}, damping_ratio = {}, tangential_restitution = {};
   std::optional<double> stiffness_level = {}, normal_stiffness = {}, young_modulus = {}, poisson_ratio = {};
   std::optional<double> tangential_stiffness_ratio = {};
   std::optional<double> rolling_friction = {}, pivoting_friction = {};
@@ -98,7 +100,7 @@ struct OtherMaterial {
 /// What holds between two materials in place of the mixing rules (pair_law.hpp).
 struct MaterialPair {
   std::vector<std::string> between = {};  ///< two names; may be the same
-  std::optional<double> friction = {}, restitution = {}, normal_stiffness = {};
+  std::optional<double> friction = {}, restitution = {}, tangential_restitution = {}, normal_stiffness = {};
   std::optional<double> rolling_friction = {}, pivoting_friction = {}, cohesion_force = {};
 };
 
@@ -131,6 +133,18 @@ struct PlaneSpec {
   std::vector<double> normal;
   std::vector<double> velocity = {};  ///< imposed; empty: at rest
   std::string material = {};          ///< name; empty: [material]
+  std::optional<double> mass = {};    ///< cd: the plane is free along its normal, with this inertia; other directions
+                                      ///< keep their imposed velocity
+  double force = 0;                   ///< on a free plane, along its normal: > 0 presses it against the grains
+};
+
+/// cd: a rough wall, a rigid body made of the listed grains that name it. It moves without turning.
+struct WallSpec {
+  std::string name = {};
+  std::vector<double> velocity = {};  ///< D components, imposed where the wall is not free; empty: at rest
+  std::vector<bool> free = {};        ///< per direction: moved by forces; empty: in none
+  std::vector<double> force = {};     ///< D components, on its free directions; empty: none
+  std::optional<double> mass = {};    ///< inertia (default: its grains' masses)
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
@@ -176,6 +190,8 @@ struct CdSpec {
   double tolerance = 1e-4;    ///< relative error on the contact impulses (see cd/residual.hpp)
   int max_sweeps = 2000;      ///< Gauss-Seidel sweeps per step at most
   double penetration = 1e-4;  ///< largest penetration that drift may reach, in units of d
+  double theta = 1;           ///< in [1/2, 1]: positions advance with theta v+ + (1 - theta) v-
+  bool compliance = false;    ///< contacts have the material's stiffness (implicit in the step), not none
 };
 
 struct RunSpec {
@@ -210,6 +226,7 @@ struct Scene {
   InitialSpec initial;
   CellSpec cell;
   std::vector<PlaneSpec> planes;
+  std::vector<WallSpec> walls;
   LoadingSpec loading;
   MdSpec md;
   CdSpec cd;

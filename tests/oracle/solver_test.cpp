@@ -18,7 +18,9 @@ Iterate<Y> random_start(const Problem<Y>& problem, std::uint64_t seed) {
     Vec<D> v;
     for (int a = 0; a < D; ++a) v[a] = stream.normal();
     start.velocity.push_back(v);
-    if constexpr (Y.friction) start.spin.push_back(zero_spin<D>());
+    if constexpr (Y.rolling && D == 2) start.spin.push_back(stream.normal());
+    if constexpr (Y.rolling && D == 3) start.spin.push_back({stream.normal(), stream.normal(), stream.normal()});
+    if constexpr (Y.friction && !Y.rolling) start.spin.push_back(zero_spin<D>());
   }
   for (const HubMode<D>& mode : problem.hub) {
     start.hub_rate.push_back(stream.normal());
@@ -34,7 +36,8 @@ Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64
   constexpr int D = Y.dim;
   RandomStream stream(seed, 1);
   Problem<Y> problem;
-  problem.friction = friction;
+  problem.laws = {{friction, 0, 0}};
+  problem.grains = bodies;
   for (int b = 0; b < bodies; ++b) {
     const double mass = stream.uniform(0.5, 2);
     problem.inverse_mass.push_back(1 / mass);
@@ -54,8 +57,17 @@ Problem<Y> random_problem(int bodies, int contacts, double friction, std::uint64
     problem.inverse_wn[k] = 1 / problem.wn[k];
     if constexpr (Y.friction) {
       problem.arm_i[k] = problem.arm_j[k] = 0.5;
+      problem.law[k] = 0;
       problem.inverse_wt[k] =
           1 / (problem.wn[k] + 0.25 * (problem.inverse_inertia[problem.i[k]] + problem.inverse_inertia[problem.j[k]]));
+    }
+  }
+  if constexpr (Y.rolling) {
+    problem.laws = {{friction, 0.3 * friction, 0.1}};
+    for (int k = 0; k < contacts; ++k) {
+      const double a = problem.inverse_inertia[problem.i[k]], b = problem.inverse_inertia[problem.j[k]];
+      problem.wr[k] = problem.wp[k] = a + b;
+      problem.coupling[k] = 0.5 * (a - b);
     }
   }
   // A motion that satisfies every constraint exists, so that the problem has a solution.
@@ -138,6 +150,31 @@ TEST(Nsgs, FrictionlessProblemsEqualTheirEnumeration3D) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) expect_enumerated_solution<3>(seed, seed % 2 == 0);
 }
 
+/// |torque| <= coefficient * r_N, and the whole bound against the rotation where there is one.
+template <class Value>
+void expect_bound(const Value& torque, const Value& rotation, double bound) {
+  const double norm = std::sqrt(squared(torque)), speed = std::sqrt(squared(rotation));
+  EXPECT_LE(norm, bound * (1 + 1e-12) + 1e-300);
+  if (bound > 1e-6 && speed > 1e-6) {
+    EXPECT_NEAR(norm, bound, 1e-7);
+    EXPECT_NEAR(dot(torque, rotation), -norm * speed, 1e-7);
+  }
+}
+
+template <Layout Y>
+void expect_rolling_law(const Problem<Y>& problem, const Iterate<Y>& solved, std::size_t k, double r_n) {
+  const Spin<Y.dim> rotation = solved.spin[problem.j[k]] - solved.spin[problem.i[k]];
+  const Spin<Y.dim> torque = torque_impulse<Y>(solved.reaction[k]);
+  const ContactLaw& law = problem.laws[0];
+  if constexpr (Y.dim == 2) {
+    expect_bound(torque, rotation, law.rolling * r_n);
+  } else {
+    const Vec<3>& n = problem.normal[k];
+    expect_bound(Vec<3>(torque - n.dot(torque) * n), Vec<3>(rotation - n.dot(rotation) * n), law.rolling * r_n);
+    expect_bound(n.dot(torque), n.dot(rotation), law.pivoting * r_n);
+  }
+}
+
 /// The laws, contact by contact, at a converged solution; checked by their own inequalities, not by the residual.
 template <Layout Y>
 void expect_laws(std::uint64_t seed, double friction) {
@@ -161,6 +198,7 @@ void expect_laws(std::uint64_t seed, double friction) {
       EXPECT_NEAR(r_t.norm(), friction * r_n, 1e-7);
       EXPECT_NEAR(r_t.dot(u_t), -r_t.norm() * u_t.norm(), 1e-7);
     }
+    if constexpr (Y.rolling) expect_rolling_law(problem, solved, k, r_n);
   }
 }
 
@@ -168,6 +206,53 @@ TEST(Nsgs, CoulombAndSignoriniHoldAtSolutions) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     expect_laws<Layout{2, true}>(seed, 0.1 + 0.02 * static_cast<double>(seed));
     expect_laws<Layout{3, true}>(seed, 0.1 + 0.02 * static_cast<double>(seed));
+  }
+}
+
+TEST(Nsgs, RollingAndPivotingHoldAtSolutions) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    expect_laws<Layout{2, true, true}>(seed, 0.1 + 0.02 * static_cast<double>(seed));
+    expect_laws<Layout{3, true, true}>(seed, 0.1 + 0.02 * static_cast<double>(seed));
+  }
+}
+
+/// Friction with rolling, coupled: the conditions that define the solution, with every combination of bounds reached.
+template <class Value, class Draw>
+void expect_two_discs(std::uint64_t seed, const Draw& draw, std::array<int, 4>& cases) {
+  RandomStream stream(seed, 7);
+  const double w_x = stream.uniform(0.5, 2), w_y = stream.uniform(0.5, 2);
+  const double c = stream.uniform(-0.95, 0.95) * std::sqrt(w_x * w_y);
+  const Value x0 = draw(stream), y0 = draw(stream), slip0 = draw(stream), turn0 = draw(stream);
+  const double bound_x = stream.uniform(0.1, 3), bound_y = stream.uniform(0.1, 3);
+  TwoDiscs<Value> pair{w_x, w_y, c, x0, y0};
+  pair.solve(slip0, turn0, bound_x, bound_y);
+  const Value dx = pair.x - x0, dy = pair.y - y0;
+  const Value slip = slip0 + w_x * dx + c * dy, turn = turn0 + c * dx + w_y * dy;
+  const auto expect_part = [&](const Value& force, const Value& motion, double bound) {
+    const double norm = std::sqrt(squared(force)), speed = std::sqrt(squared(motion));
+    EXPECT_LE(norm, bound * (1 + 1e-14));
+    // Two projections that alternate stop at 1e-15 of the bound, times 1 / (1 - 0.95^2).
+    if (norm < bound * (1 - 1e-12)) {
+      EXPECT_LT(speed, 1e-12);
+    }
+    EXPECT_NEAR(dot(force, motion), -norm * speed, 1e-12);
+    return norm >= bound * (1 - 1e-12);
+  };
+  const bool slides = expect_part(pair.x, slip, bound_x), rolls = expect_part(pair.y, turn, bound_y);
+  ++cases[(slides ? 1 : 0) + (rolls ? 2 : 0)];
+}
+
+TEST(TwoDiscs, SolutionsSatisfyBothLaws) {
+  std::array<int, 4> disks{}, spheres{};
+  for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+    expect_two_discs<double>(
+        seed, [](RandomStream& stream) { return 2 * stream.normal(); }, disks);
+    expect_two_discs<Vec<3>>(
+        seed, [](RandomStream& s) { return Vec<3>(2 * s.normal(), 2 * s.normal(), 0); }, spheres);
+  }
+  for (int kind = 0; kind < 4; ++kind) {  // sticks, slides, rolls, both
+    EXPECT_GT(disks[kind], 300) << kind;
+    EXPECT_GT(spheres[kind], 300) << kind;
   }
 }
 

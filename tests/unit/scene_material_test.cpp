@@ -249,20 +249,41 @@ cell.size = [10, 20]
                  sound + R"(material.eta = 1
 )",
                  {R"(5:10: unknown name "eta" in [material]; did you mean "cohesion_number"?)"}},
-        BadScene{"rolling_and_cohesion_in_cd",
-                 sound + R"(engine = "cd"
-material.rolling_friction = 0.1
+        BadScene{
+            "square_root_cohesion_in_cd",
+            sound + R"(engine = "cd"
+material.cohesion_law = "square_root"
 material.cohesion_force = 1
 )",
-                 {R"(6:29: material.rolling_friction: the cd engine has no rolling resistance yet; use engine = "md")",
-                  R"(7:27: material.cohesion_force: the cd engine has no cohesion yet; use engine = "md")"}},
-        BadScene{"materials_in_cd",
-                 sound + R"(engine = "cd"
-other_material = [{name = "a"}]
-material_pair = [{between = ["a", "a"]}]
+            {R"(6:25: material.cohesion_law: engine cd has the law "constant" only: the square root is one of the )"
+             R"(deflection)"}},
+        BadScene{"tangential_restitution_in_md",
+                 sound + R"(material.tangential_restitution = 0.5
+material_pair = [{between = ["default", "default"], tangential_restitution = 0.2}]
 )",
-                 {R"(6:18: other_material: the cd engine has no further materials yet; use engine = "md")",
-                  R"(7:17: material_pair: the cd engine has no pairs of materials yet; use engine = "md")"}},
+                 {R"(5:35: material.tangential_restitution needs engine = "cd": in md it follows from tangential )"
+                  R"(stiffness and damping)",
+                  R"(6:78: material_pair[0].tangential_restitution needs engine = "cd": in md it follows from )"
+                  R"(tangential stiffness and damping)"}},
+        BadScene{
+            "compliance_of_cd",
+            sound + R"(engine = "cd"
+cd = {compliance = true, theta = 0.5}
+material.tangential_damping_ratio = 0.1
+material.tangential_restitution = 0.3
+)",
+            {R"(6:20: cd.compliance needs material.viscous_convention = "total": the implicit contact bounds the )"
+             R"(repulsive force as a whole)",
+             R"(6:20: cd.compliance and a tangential_restitution exclude each other: tangential springs rebound)",
+             R"(6:34: cd.theta below 1 and cd.compliance exclude each other)",
+             R"(7:37: material.tangential_damping_ratio: the elastic contacts of cd have no tangential dashpot; )"
+             R"(leave it out)"}},
+        BadScene{"planes_with_mass_in_md",
+                 sound + R"(cell.periodic = [false, false]
+plane = [{point = [0, 0], normal = [0, 1], mass = 2}, {point = [0, 9], normal = [0, -1], force = 2}]
+)",
+                 {R"(6:51: plane[0].mass needs engine = "cd": planes of md have imposed velocities)",
+                  R"(6:98: plane[1].force needs plane[1].mass: a plane without mass has an imposed velocity)"}},
         BadScene{"nameless_material",
                  sound + R"(other_material = [{friction = 1}]
 )",
