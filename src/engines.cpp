@@ -19,6 +19,10 @@ std::unique_ptr<Engine<D>> make_engine(EngineKind kind, const Scene& scene, cons
                                        const Sample<D>& sample) {
   if (kind == EngineKind::md && !sample.wall.empty())
     throw InputError("[[wall]] entries need engine cd: md has no rigid bodies");
+  if (kind == EngineKind::md)
+    for (const Plane<D>& plane : sample.planes)
+      if (plane.inverse_mass > 0)
+        throw InputError("planes with a mass need engine cd: those of md have imposed velocities");
   return kind == EngineKind::md ? md::make_engine<D>(scene, derived, sample)
                                 : cd::make_engine<D>(scene, derived, sample);
 }

@@ -1,7 +1,10 @@
 // Rough walls of a scene: what a file may say of them, what it may not, and the sample that they make.
 #include <gtest/gtest.h>
 
+#include "common/scene/derive.hpp"
 #include "common/scene/packing.hpp"
+#include "src/engines.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
 namespace galet::test {
@@ -52,6 +55,27 @@ material.normal_stiffness = 1e4
   soft.replace(soft.find("cd"), 2, "md");
   EXPECT_EQ(mistakes_of(soft),
             (std::vector<std::string>{R"(6:8: [[wall]] entries need engine = "cd": md has no rigid bodies)"}));
+}
+
+/// `compare` and tests make engines without a scene file's rules: what md has no motion for is refused there too.
+TEST(SceneWalls, SoftEngineRefusesWhatItCanNotMove) {
+  const auto refusal = [](const Sample<2>& sample) -> std::string {
+    try {
+      const Scene scene = periodic_scene(2, 0, 1, 1e4);
+      galet::make_engine<2>(EngineKind::md, scene, derive(scene, grain_facts<2>(scene, sample)), sample);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Sample<2> sample = gas_sample<2>(3, 0.3, 0, 5, 0);
+  EXPECT_EQ(refusal(sample), "");
+  sample.wall = {0};
+  EXPECT_NE(refusal(sample).find("[[wall]] entries need engine cd"), std::string::npos);
+  sample.wall.clear();
+  sample.planes = {{Vec<2>(0, -1), Vec<2>(0, 1)}};
+  sample.planes[0].inverse_mass = 1;
+  EXPECT_NE(refusal(sample).find("planes with a mass need engine cd"), std::string::npos);
 }
 
 }  // namespace
