@@ -205,8 +205,8 @@ Difference compare_engines(NormalLaw law, double increment) {
 
 TEST(ComplianceCd, PackingUnderAStressIncrementDeflectsAsInMd) {
   // Linear contacts that stick have one answer, up to the turning of contacts by some 1e-5 on the way to it. (In some
-  // packings, of seed 71 for one, a weak contact slides while md oscillates into its equilibrium: the answer then depends
-  // on the damping, by 1e-2, and not on md's time step.)
+  // packings, of seed 71 for one, a weak contact slides while md oscillates into its equilibrium: the answer then
+  // depends on the damping, by 1e-2, and not on md's time step.)
   const Difference linear = compare_engines(NormalLaw::linear, 0.004);
   EXPECT_GT(linear.change, 1e-3);
   EXPECT_LT(linear.worst, 1e-5);
