@@ -7,11 +7,12 @@
 // higher pressure. Each stage lasts 60 inertial times under the contacts' own damping alone; then damping proportional
 // to the accelerations brings it to equilibrium: it takes the same share of energy out of each period of every mode,
 // while the soft modes of a nearly isostatic packing hardly move its contacts, so that these hardly damp them, and a
-// drag makes them creep. Columns: kappa, P in kPa, Phi, z, z* and share of
-// rattlers, all at rest; the largest deflection over d; kinetic energy per grain over P d^3; steps and processor
-// seconds of the relaxation. References: Agnolin and Roux 2007 (state A): Phi = 0.637, z* = 6.07, rattlers 1.3 %; z*
-// about 5 % higher at kappa = 2000 (chapter). What it can't tell: the scatter from packing to packing, for which SEED
-// is there.
+// drag makes them creep. Weak damping (0.3): a stronger one slows the last densification, and Phi and z* come out too
+// low. N = 4000 takes a thousand inertial times to come to rest at 10 kPa, half an hour on one core; N = 500 seconds.
+// Columns: kappa, P in kPa, Phi, z, z* and share of rattlers, all at rest; the largest deflection over d; kinetic
+// energy per grain over P d^3; steps and processor seconds of the relaxation. References: Agnolin and Roux 2007 (state
+// A): Phi = 0.637, z* = 6.07, rattlers 1.3 %; z* about 5 % higher at kappa = 2000 (chapter). What it can't tell: the
+// scatter from packing to packing, for which SEED is there.
 #include <cstdio>
 #include <cstdlib>
 
