@@ -169,8 +169,8 @@ class Rows {
     if constexpr (Y.friction) {
       // What the turn of the normal has put into the tangential part is no friction: Coulomb's bound takes it out.
       const Vector tangential = force - along * normal;
-      const V bound = terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
-      result.sliding = min(max(bound, -bound) / max(length, V(1e-300)), V(1.0)) * tangential;
+      const V most = terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
+      result.sliding = min(max(most, -most) / max(length, V(1e-300)), V(1.0)) * tangential;
     }
     if constexpr (Y.rolling && Y.dim == 2) result.torque = last(3);
     if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(8), last(9), last(10)};
