@@ -265,19 +265,18 @@ material_pair = [{between = ["default", "default"], tangential_restitution = 0.2
                   R"(stiffness and damping)",
                   R"(6:78: material_pair[0].tangential_restitution needs engine = "cd": in md it follows from )"
                   R"(tangential stiffness and damping)"}},
-        BadScene{
-            "compliance_of_cd",
-            sound + R"(engine = "cd"
+        BadScene{"compliance_of_cd",
+                 sound + R"(engine = "cd"
 cd = {compliance = true, theta = 0.5}
 material.tangential_damping_ratio = 0.1
 material.tangential_restitution = 0.3
 )",
-            {R"(6:20: cd.compliance needs material.viscous_convention = "total": the implicit contact bounds the )"
-             R"(repulsive force as a whole)",
-             R"(6:20: cd.compliance and a tangential_restitution exclude each other: tangential springs rebound)",
-             R"(6:34: cd.theta below 1 and cd.compliance exclude each other)",
-             R"(7:37: material.tangential_damping_ratio: the elastic contacts of cd have no tangential dashpot; )"
-             R"(leave it out)"}},
+                 {R"(6:20: cd.compliance needs material.viscous_convention = "total": the implicit contact bounds the )"
+                  R"(repulsive force as a whole)",
+                  R"(6:20: cd.compliance and a tangential_restitution exclude each other: tangential springs rebound)",
+                  R"(6:34: cd.theta below 1 and cd.compliance exclude each other)",
+                  R"(7:37: material.tangential_damping_ratio: the elastic contacts of cd have no tangential dashpot; )"
+                  R"(leave it out)"}},
         BadScene{"planes_with_mass_in_md",
                  sound + R"(cell.periodic = [false, false]
 plane = [{point = [0, 0], normal = [0, 1], mass = 2}, {point = [0, 9], normal = [0, -1], force = 2}]
