@@ -92,7 +92,7 @@ if [ -f "$results/md_accuracy/orders.csv" ]; then
 Errors at 10.4 to 320.4 steps per collision of md and of the usual scheme (collisions: a program of its own; packings: LAMMPS), observed
 orders, and steps per collision at which an error is reached (~: extrapolated). What is measured against what stands at the head of
 `benchmarks/md_accuracy.cpp`; `check`: how far the limits of both programs lie apart. Don't take the ratios of the sheared packings for the
-codes': LAMMPS's errors there hold a lag of its deforming cell that its contact law has no part in.
+codes': LAMMPS's errors there are far above those of its scheme; a lag of its deforming cell is suspected, not proven.
 
 END
   csv_table "$results/md_accuracy/orders.csv"
