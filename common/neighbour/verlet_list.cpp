@@ -17,6 +17,9 @@ namespace galet {
 
 namespace {
 
+/// In sizes of the cell: images are counted in int.
+constexpr double farthest = 1e9;
+
 template <int D>
 Image<D> add(const Image<D>& a, const Image<D>& b) {
   Image<D> sum;
@@ -102,6 +105,8 @@ void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
   for (std::size_t i = 0; i < position.size(); ++i) {
     if (!position[i].allFinite()) throw RunError(fmt::format("the position of grain {} is not finite", i));
     const Vec<D> fraction = to_fraction * position[i];
+    if (!(fraction.cwiseAbs().maxCoeff() < farthest))
+      throw RunError(fmt::format("grain {} is lost, far from the others", i));
     for (int a = 0; a < D; ++a)
       if (cell.periodic[a]) wraps_[i][a] = -static_cast<int>(std::floor(fraction[a]));
     position[i] += lattice<D>(cell.box, wraps_[i]);
@@ -269,11 +274,17 @@ void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const dou
 template <int D>
 void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
                           std::span<const Plane<D>> planes) {
-  wrap(position, cell);
-  largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
-  if (!position.empty()) {
-    fill_bins(position, cell, 2 * largest_radius_ + range_ + skin_);
-    search(position, radius, cell, planes);
+  try {
+    wrap(position, cell);
+    largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
+    if (!position.empty()) {
+      fill_bins(position, cell, 2 * largest_radius_ + range_ + skin_);
+      search(position, radius, cell, planes);
+    }
+  } catch (const RunError&) {
+    // Rows that no longer match what their owner keeps about them must not be read.
+    forget_pairs(static_cast<int>(position.size()));
+    throw;
   }
   std::size_t total = 0;
   for (const auto& found : chunk_found_) total += found.size();
@@ -295,6 +306,14 @@ void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> ra
   plane_reference_.clear();
   for (const Plane<D>& plane : planes) plane_reference_.push_back(plane.point);
   ++builds_;
+}
+
+template <int D>
+void VerletList<D>::forget_pairs(int grains) {
+  pairs_.i.clear(), pairs_.j.clear(), pairs_.image.clear();
+  first_.assign(grains + 1, 0);
+  second_.assign(grains + 1, 0);
+  rows_of_second_.clear(), origin_.clear(), flipped_.clear();
 }
 
 /// Row indices by grain, and the match between new and old rows (both sorted by (i, j, image)).

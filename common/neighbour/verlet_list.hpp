@@ -54,7 +54,8 @@ class VerletList {
   double largest_move() const { return largest_move_; }
 
   /// Wraps positions and box, and lists all pairs anew. Throws RunError, naming the grains, when a position is not
-  /// finite, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane.
+  /// finite or absurdly far, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane; the
+  /// list is then empty.
   void build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
              std::span<const Plane<D>> planes);
 
@@ -95,6 +96,7 @@ class VerletList {
                   std::span<const double> radius, const Cell<D>& cell, std::vector<Neighbour>& found) const;
   void carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap);
   void index_rows(int grains);
+  void forget_pairs(int grains);
 
   double range_ = 0;
   double skin_ = 0;
