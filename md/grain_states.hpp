@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/core/memory_use.hpp"
 #include "common/engine/bodies.hpp"
 #include "md/contacts.hpp"
 #include "md/kernel/view.hpp"
@@ -16,6 +17,7 @@ class GrainStates {
   static constexpr int D = Y.dim;
   using S = StateGroups<Y>;
 
+  std::size_t bytes() const { return bytes_of(lines_); }
   double* data() { return lines_.data()->value; }
 
   /// Velocities and constants of the bodies; accelerations are kept.
