@@ -7,6 +7,7 @@
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
 #include "common/core/layout.hpp"
+#include "common/core/memory_use.hpp"
 #include "common/core/types.hpp"
 #include "common/neighbour/verlet_list.hpp"
 #include "md/kernel/view.hpp"
@@ -126,6 +127,9 @@ class Contacts {
 
   /// Rows of each grain, see GrainView.
   const int* slots() const { return slots_.data(); }
+
+  /// Without `listed`: the list counts its pairs.
+  MemoryUse memory() const { return {bytes_of(slots_), bytes_of(blocks_, constants_, columns_, out_, plane_rows_), 0}; }
 
   const std::vector<PlaneRow>& plane_rows() const { return plane_rows_; }
   /// Records that the rows refer to.

@@ -94,6 +94,7 @@ class GrainPass {
     GrainView view{};
     view.records = seen.grains.data();
     view.state = states.data();
+    view.expected = states.expected();
     view.count = bodies.position.size();
     return view;
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/core/layout.hpp"
+#include "common/core/memory_use.hpp"
 #include "common/core/types.hpp"
 #include "md/contacts.hpp"
 
@@ -28,6 +29,7 @@ class GrainRecords {
     if (lines > lines_.size()) lines_.resize(lines + lines / 8, Line{});
   }
 
+  std::size_t bytes() const { return bytes_of(lines_); }
   double* data() { return lines_.data()->value; }
   const double* data() const { return lines_.data()->value; }
 

@@ -2,8 +2,10 @@
 // accelerations now and as expected for the next step, and constants of each grain. Positions are in the records.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "common/core/memory_use.hpp"
 #include "common/engine/bodies.hpp"
 #include "md/contacts.hpp"
 #include "md/kernel/view.hpp"
@@ -16,11 +18,14 @@ class GrainStates {
   static constexpr int D = Y.dim;
   using S = StateGroups<Y>;
 
+  std::size_t bytes() const { return bytes_of(lines_, expected_); }
+  double* expected() { return expected_.data()->value; }
   double* data() { return lines_.data()->value; }
 
   /// Velocities and constants of the bodies; accelerations are kept.
   void take(const Bodies<Y>& bodies) {
     lines_.resize((bodies.position.size() * S::size + 7) / 8);
+    expected_.resize((bodies.position.size() * S::second_size + 7) / 8);
     for (int i = 0; i < bodies.grains(); ++i) {
       set(i, S::velocity, bodies.velocity[i]);
       if constexpr (Y.friction) set_spin(i, S::velocity, S::spin, bodies.spin[i]);
@@ -73,11 +78,15 @@ class GrainStates {
   }
 
  private:
-  double* at(int i) { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
-  const double* at(int i) const { return lines_.data()->value + static_cast<std::size_t>(i) * S::size; }
+  double* at(int i, int place) { return const_cast<double*>(std::as_const(*this).at(i, place)); }
+  const double* at(int i, int place) const {
+    const auto grain = static_cast<std::size_t>(i);
+    if (place < S::size) return lines_.data()->value + grain * S::size + place;
+    return expected_.data()->value + grain * S::second_size + (place - S::size);
+  }
   void set_constants(int i, const Bodies<Y>& bodies) {
-    double* state = at(i);
-    state[S::inverse_mass] = 1 / bodies.mass[i], state[S::mass] = bodies.mass[i];
+    double* state = at(i, 0);
+    state[S::inverse_mass] = 1 / bodies.mass[i], *at(i, S::mass) = bodies.mass[i];
     if constexpr (D == 2) state[S::factors] = state[S::factors + 1] = 1 / bodies.mass[i];
     if constexpr (Y.friction) {
       const double radius = bodies.radius[i], inertia = bodies.inertia[i];
@@ -90,18 +99,18 @@ class GrainStates {
     }
   }
 
-  Vec<D> get(int i, int group) const { return Eigen::Map<const Vec<D>>(at(i) + group); }
-  void set(int i, int group, const Vec<D>& value) { Eigen::Map<Vec<D>>(at(i) + group) = value; }
+  Vec<D> get(int i, int group) const { return Eigen::Map<const Vec<D>>(at(i, group)); }
+  void set(int i, int group, const Vec<D>& value) { Eigen::Map<Vec<D>>(at(i, group)) = value; }
   /// In 2D the rotation is the third of the group of x and y, in 3D a group of its own.
   Spin<D> get_spin(int i, int linear, int angular) const {
     if constexpr (D == 2)
-      return at(i)[linear + 2];
+      return at(i, linear)[2];
     else
       return get(i, angular);
   }
   void set_spin(int i, int linear, int angular, const Spin<D>& value) {
     if constexpr (D == 2)
-      at(i)[linear + 2] = value;
+      at(i, linear)[2] = value;
     else
       set(i, angular, value);
   }
@@ -125,7 +134,7 @@ class GrainStates {
     }
   }
 
-  std::vector<Line> lines_;
+  std::vector<Line> lines_, expected_;
 };
 
 }  // namespace galet::md

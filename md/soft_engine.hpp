@@ -71,6 +71,14 @@ class SoftEngine final : public Engine<Y.dim> {
   long steps() const override { return steps_; }
   const Profile& profile() const override { return profile_; }
 
+  MemoryUse memory() const override {
+    MemoryUse use = list_.memory();
+    use += contacts_.memory();
+    use += carried_.memory();
+    use.grains += bodies_.bytes() + seen_.grains.bytes() + states_.bytes();
+    return use;
+  }
+
   void advance(long count) override {
     for (long k = 0; k < count; ++k) {
       if (k == 0 || !joined()) begin_step();

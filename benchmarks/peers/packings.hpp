@@ -69,27 +69,4 @@ EndState<D> end_of(Engine<D>& engine) {
   return end;
 }
 
-/// `copies` of the cell along each direction.
-template <int D>
-Sample<D> replicated(const Sample<D>& cell, int copies) {
-  Sample<D> sample = cell;
-  sample.cell.box *= copies;
-  sample.resize(0);
-  Image<D> image{};
-  const int images = D == 2 ? copies * copies : copies * copies * copies;
-  for (int k = 0; k < images; ++k) {
-    for (int a = 0, rest = k; a < D; ++a, rest /= copies) image[a] = rest % copies;
-    const Vec<D> shift = lattice<D>(cell.cell.box, image);
-    for (int i = 0; i < cell.count(); ++i) {
-      sample.position.push_back(cell.position[i] + shift);
-      sample.velocity.push_back(cell.velocity[i]);
-      sample.spin.push_back(cell.spin[i]);
-      sample.radius.push_back(cell.radius[i]);
-      sample.mass.push_back(cell.mass[i]);
-      sample.material.push_back(cell.material[i]);
-    }
-  }
-  return sample;
-}
-
 }  // namespace galet::bench

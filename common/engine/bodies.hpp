@@ -4,6 +4,7 @@
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
 #include "common/core/layout.hpp"
+#include "common/core/memory_use.hpp"
 #include "common/engine/engine.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
@@ -39,6 +40,7 @@ struct Bodies {
   std::vector<int> wall_of;  ///< index of each grain's wall, or -1; empty: there are no walls
   Vec<D> gravity = Vec<D>::Zero();
 
+  std::size_t bytes() const { return bytes_of(position, velocity, radius, mass, material, spin, inertia, wall_of); }
   int grains() const { return static_cast<int>(position.size()); }
   bool stress_driven() const {
     for (const CellMode<D>& mode : modes)

@@ -6,6 +6,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/layout.hpp"
+#include "common/core/memory_use.hpp"
 #include "common/core/profile.hpp"
 #include "common/engine/snapshot.hpp"
 
@@ -73,6 +74,8 @@ class Engine {
   virtual EnergyFlows energy_flows() const { return {}; }
   virtual SolverSummary solver_summary() const { return {}; }
   virtual const Profile& profile() const = 0;
+  /// What its arrays hold now. Accounted for in md only; zero in cd.
+  virtual MemoryUse memory() const { return {}; }
 
   /// Everything that influences the future, bit for bit; restore() is its inverse for an engine of the same scene.
   virtual void save(Archive& archive) const = 0;

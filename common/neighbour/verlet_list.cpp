@@ -353,6 +353,18 @@ void VerletList<D>::index_rows(int grains) {
 }
 
 template <int D>
+MemoryUse VerletList<D>::memory() const {
+  MemoryUse use;
+  use.grains =
+      bytes_of(first_, second_, reference_, bin_of_, bin_start_, bin_grains_, wraps_, found_count_, bin_cursor_);
+  use.pairs = bytes_of(pairs_.i, pairs_.j, pairs_.image, old_pairs_.i, old_pairs_.j, old_pairs_.image);
+  use.pairs += bytes_of(rows_of_second_, origin_, flipped_, old_flipped_, old_order_);
+  for (const auto& found : chunk_found_) use.pairs += bytes_of(found);
+  use.listed = size();
+  return use;
+}
+
+template <int D>
 void VerletList<D>::save(Archive& archive) const {
   auto& pairs = archive.integers["neighbours.pairs"];
   pairs.clear();

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
+#include "common/core/memory_use.hpp"
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
@@ -75,6 +76,7 @@ class VerletList {
 
   double skin() const { return skin_; }
   long builds() const { return builds_; }
+  MemoryUse memory() const;
 
   void save(Archive& archive) const;
   void restore(const Archive& archive, int grains);

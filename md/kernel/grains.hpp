@@ -63,26 +63,26 @@ class Grains {
 
   /// Keeps what gather has found; what contacts will see of the accelerations is extrapolated from the last ones.
   GALET_INLINE void keep(std::size_t grain, const Motion& now) const {
-    double* state = view_.state + grain * S::size;
-    keep_acceleration(state + S::expected, state + S::acceleration, now.acceleration);
+    double *state = view_.state + grain * S::size, *expected = view_.expected + grain * S::second_size;
+    keep_acceleration(expected, state + S::acceleration, now.acceleration);
     keep_constants(now.velocity, state + S::velocity);
     if constexpr (Y.friction && Y.dim == 3) {
-      keep_acceleration(state + S::expected_turning, state + S::turning, now.turning);
+      keep_acceleration(expected + (S::expected_turning - S::expected), state + S::turning, now.turning);
       keep_constants(now.spin, state + S::spin);
     }
   }
 
   /// First half of the next step, from what keep() has stored.
   GALET_INLINE F drift(std::size_t grain) const {
-    double* state = view_.state + grain * S::size;
+    const double *state = view_.state + grain * S::size, *expected = view_.expected + grain * S::second_size;
     Motion now{};
     now.acceleration = F::load(state + S::acceleration), now.velocity = F::load(state + S::velocity);
     F turning_expected{};
     if constexpr (Y.friction && Y.dim == 3) {
       now.turning = F::load(state + S::turning), now.spin = F::load(state + S::spin);
-      turning_expected = F::load(state + S::expected_turning);
+      turning_expected = F::load(expected + (S::expected_turning - S::expected));
     }
-    return move(grain, now, F::load(state + S::expected), turning_expected);
+    return move(grain, now, F::load(expected), turning_expected);
   }
 
   /// The same right after gather: accelerations are in registers, and what is expected of them is not stored.
@@ -98,7 +98,9 @@ class Grains {
     return move(grain, now, expected, turning_expected);
   }
 
-  GALET_INLINE double mass(std::size_t grain) const { return view_.state[grain * S::size + S::mass]; }
+  GALET_INLINE double mass(std::size_t grain) const {
+    return view_.expected[grain * S::second_size + S::mass - S::size];
+  }
 
  private:
   GALET_INLINE static F extrapolated(F now, F before) { return madd(F::all(extrapolation), now - before, now); }

@@ -5,7 +5,8 @@
 //     2D frictionless   x y vx vy                                32 B
 //     2D                x y vx vy | R w, w, 0, 0                 64 B
 //     3D frictionless   x y z 0 | vx vy vz 0                     64 B
-//     3D                x y z wx | vx vy vz wy | R wx, R wy, R wz, wz | wx wy wz 0   128 B (the last 32 for rolling)
+//     3D                x y z wx | vx vy vz wy | R wx, R wy, R wz, wz                96 B
+//     3D with rolling   the same | wx wy wz 0                                        128 B
 //     after the grains come two records of points at rest, far apart, for rows that only fill a block; then one for
 //     each row of a grain and a plane: the point of the plane next to the grain, with the velocity of the plane there
 //     and no spin. So kernels know pairs of records and nothing of planes.
@@ -29,7 +30,10 @@ namespace galet::md {
 inline constexpr int block_rows = 8;
 
 /// Doubles per grain in `records`.
-constexpr int record_size(Layout y) { return y.friction ? (y.dim == 2 ? 8 : 16) : (y.dim == 2 ? 4 : 8); }
+constexpr int record_size(Layout y) {
+  if (y.dim == 2) return y.friction ? 8 : 4;
+  return y.rolling ? 16 : y.friction ? 12 : 8;
+}
 /// Doubles per row in `out`.
 constexpr int out_size(Layout y) {
   if (y.dim == 2) return y.friction ? 4 : 2;
@@ -104,21 +108,23 @@ using PassFunction = void (*)(const PassView&, std::size_t begin, std::size_t en
 inline constexpr double extrapolation = 0.5;
 
 /// Where each quantity of a grain's state lies; groups of four doubles, whose fourth (c) is a constant of the grain.
-///   2D   vx vy w c | ax ay dw/dt c | factors | expected accelerations c | record factors     160 B (frictionless 128
-///   B)
+///   2D   vx vy w c | ax ay dw/dt c | factors | record factors      128 B (frictionless 96 B)
 ///        factors of the rows Fx Fy twist torque: 1/m, 1/m, -R/I, 1/I;  of w in the record: R, 1, 0, 0
-///   3D   v c | a c | expected c        with friction also   w c | dw/dt c | expected c       96 B or 192 B
-/// `expected`: accelerations extrapolated to the next step; read only where a step begins apart from the last one's
-/// end.
+///   3D   v c | a c            with friction also   w c | dw/dt c    64 B or 128 B
+/// `expected`: accelerations extrapolated to the next step. They are needed only where a step begins apart from the
+/// last one's end, so they lie in a second array (groups from `size` on): large samples are bound by what is moved.
 template <Layout Y>
 struct StateGroups {
   static constexpr int velocity = 0, acceleration = 4;
-  static constexpr int factors = 8, record_factors = 16;  ///< 2D
-  static constexpr int expected = Y.dim == 2 ? 12 : 8;
-  static constexpr int spin = 12, turning = 16, expected_turning = 20;  ///< 3D with friction
-  static constexpr int inverse_mass = 3, mass = 7;
-  static constexpr int radius = 19, twist_factor = 15, inverse_inertia = 23;  ///< 3D with friction; twist: -R/I
-  static constexpr int size = Y.dim == 2 ? (Y.friction ? 20 : 16) : (Y.friction ? 24 : 12);
+  static constexpr int factors = 8, record_factors = 12;  ///< 2D
+  static constexpr int spin = 8, turning = 12;            ///< 3D with friction
+  static constexpr int inverse_mass = 3;
+  static constexpr int inverse_inertia = 7, twist_factor = 11, radius = 15;  ///< 3D with friction; twist: -R/I
+  static constexpr int size = Y.dim == 2 ? (Y.friction ? 16 : 12) : (Y.friction ? 16 : 8);
+  // The second array.
+  static constexpr int expected = size, expected_turning = size + 4;  ///< the latter: 3D with friction
+  static constexpr int mass = size + 3;
+  static constexpr int second_size = Y.dim == 3 && Y.friction ? 8 : 4;
 };
 
 /// Slots of a grain in GrainView::slots.
@@ -132,6 +138,7 @@ struct GrainView {
   alignas(32) double step[3][4];
   double* records;
   double* state;
+  double* expected;  ///< second array of the state
   const double* out;
   /// 9 per grain: 4 of its rows as second member, 4 as first, a row of zeros where it has fewer; then whether it has
   /// more
