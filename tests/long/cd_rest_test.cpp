@@ -1,5 +1,6 @@
-// Rest stays rest, over a million steps: grains on slopes just below their limits do not move at all, and what is held
-// under weight or pressure keeps its penetration below the one that the scene allows.
+// Rest stays rest, over a million steps: grains on slopes just below their limits do not move at all, just above them
+// they speed up as they must, and what is held under weight or pressure keeps its penetration below the one that the
+// scene allows.
 #include <gtest/gtest.h>
 
 #include "tests/support/scenes.hpp"
@@ -30,6 +31,37 @@ void check_slope(double friction, double rolling) {
   EXPECT_EQ(engine->solver_summary().corrections, 0);
   EXPECT_LT(engine->solver_summary().penetration, 1e-8);
 }
+
+/// The same ball at 1.01 of its limit: slides (or rolls, where rolling gives way first) with a constant acceleration.
+template <int D>
+void check_motion(double friction, double rolling) {
+  const double tangent = 1.01 * std::min(friction, rolling / radius), theta = std::atan(tangent);
+  Scene scene = free_scene(D, friction, 0.5, 1e4);
+  scene.material.rolling_friction = rolling;
+  const Vec<D> along = generic_tangent<D>(up<D>());
+  const Vec<D> g = -std::cos(theta) * up<D>() + std::sin(theta) * along;
+  scene.loading.gravity.assign(g.data(), g.data() + D);
+  scene.cd.dt = 1e-3;
+  const Sample<D> sample = ball_on_plane<D>(up<D>(), 0.0);
+  const auto engine = make_engine<D>(EngineKind::cd, scene, sample);
+  engine->advance(million);
+  const bool slides = friction < rolling / radius;
+  const double a =
+      (std::sin(theta) - std::min(friction, rolling / radius) * std::cos(theta)) / (slides ? 1 : 1 + inertia_ratio<D>);
+  const double time = 1e-3 * million, speed = a * time;
+  const Snapshot<D> state = engine->snapshot();
+  // a is 1 % of the forces that nearly balance: rounding of 1e-16 g dt in each step, with one sign at worst, is 1e-10
+  // of the speed.
+  EXPECT_NEAR(state.velocity[0].dot(along), speed, 1e-9 * speed);
+  EXPECT_NEAR(spin_norm(state.spin[0]), slides ? 0 : speed / radius, 1e-9 * speed / radius);
+  // Positions move with the velocity of each step's end: dt / 2 times the speed further than the parabola.
+  const double path = speed * time / 2 + 1e-3 * speed / 2;
+  EXPECT_NEAR((state.position[0] - sample.position[0]).dot(along), path, 1e-9 * path);
+  EXPECT_LT(engine->solver_summary().penetration, 1e-8);
+}
+
+TEST(MotionOverAMillionSteps, DiskOnASlopeAboveItsFrictionAngle) { check_motion<2>(0.3, 0.4); }
+TEST(MotionOverAMillionSteps, SphereOnASlopeAboveItsRollingLimit) { check_motion<3>(0.5, 0.1); }
 
 TEST(RestOverAMillionSteps, DiskOnASlopeBelowItsFrictionAngle) { check_slope<2>(0.3, 0.4); }
 TEST(RestOverAMillionSteps, SphereOnASlopeBelowItsRollingLimit) { check_slope<3>(0.5, 0.1); }
