@@ -5,7 +5,7 @@
 //   q = u of the free velocities + offset (N) + lag (T, R)
 //
 // J: rows n.(v_j - v_i), t.(v_j - v_i) - arm (n x t).w, t.(w_j - w_i); g: n.G b and t.G b, b the branch.
-// Disks: t = (-n_y, n_x). Spheres: t1 is any direction across n, t2 = n x t1.
+// Disks: t = (-n_y, n_x). Spheres: t1 is any direction across n (Eigen's unitOrthogonal), t2 = n x t1.
 //
 //   layout          block   mu
 //   frictionless    D       0 (the tangential rows hold the motion of the centres; nothing depends on them)
