@@ -12,10 +12,10 @@
 
 #include <fmt/format.h>
 
+#include "common/core/clock.hpp"
 #include "common/core/error.hpp"
 #include "common/io/svg.hpp"
 #include "common/scene/packing.hpp"
-#include "src/clock.hpp"
 #include "src/cost.hpp"
 #include "src/dimension.hpp"
 #include "src/engines.hpp"

@@ -2,7 +2,7 @@
 // times per second. It looks at the clock and changes nothing of the state.
 #pragma once
 
-#include "src/clock.hpp"
+#include "common/core/clock.hpp"
 #include "src/run_control.hpp"
 
 namespace galet {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "common/core/clock.hpp"
 #include "common/core/error.hpp"
 #include "common/scene/packing.hpp"
-#include "src/clock.hpp"
 #include "src/engines.hpp"
 #include "src/restart.hpp"
 

@@ -22,9 +22,9 @@
 
 #include "benchmarks/dense_sample.hpp"
 #include "benchmarks/peers/lammps_run.hpp"
+#include "common/core/clock.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/stress.hpp"
-#include "src/clock.hpp"
 
 namespace galet::bench {
 namespace {

@@ -25,8 +25,8 @@
 
 #include "benchmarks/peers/lammps_run.hpp"
 #include "benchmarks/peers/packings.hpp"
+#include "common/core/clock.hpp"
 #include "common/core/parallel.hpp"
-#include "src/clock.hpp"
 
 namespace galet::bench {
 namespace {

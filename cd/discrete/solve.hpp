@@ -33,7 +33,8 @@ struct DiscreteSolution {
   double force_error = 0;    ///< estimate of the relative error of r: |r - P_K(r - u^)| / |r|, scaled
   double violation = 0;      ///< largest -u_N (in units of u): what a gap would lose
   bool converged = false;
-  std::string reason;  ///< why it stopped: "error reached", "out of time", "stalled", "no solution"
+  std::string reason;  ///< why it stopped: "error reached", "out of time", "stalled", or "no solution" where the
+                       ///< impulses grow without bound
   std::string solver;  ///< whose iterate r is
   long iterations = 0;
   double seconds = 0;  ///< processor time, checks not counted

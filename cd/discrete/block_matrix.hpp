@@ -1,0 +1,84 @@
+// W + E with E block-diagonal, factorised again and again with one pattern: dense where small, else sparse (UMFPACK).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+#include <Eigen/UmfPackSupport>
+
+#include "cd/discrete/scaled_problem.hpp"
+
+namespace galet::cd {
+
+template <int B>
+class BlockMatrix {
+ public:
+  using Block = typename ScaledProblem<B>::Block;
+
+  explicit BlockMatrix(const ScaledProblem<B>& problem) : problem_(problem), dense_(B * problem.size() <= 400) {
+    if (!dense_) {
+      prepare();
+      sparse_solver_.umfpackControl()[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+      sparse_solver_.umfpackControl()[UMFPACK_SYM_PIVOT_TOLERANCE] = 1e-6;
+      sparse_solver_.analyzePattern(matrix_);
+    }
+  }
+
+  bool factorise(std::span<const Block> added) {
+    if (dense_) {
+      const int rows = B * problem_.size();
+      Eigen::MatrixXd full = Eigen::MatrixXd::Zero(rows, rows);
+      for (int c = 0; c < problem_.size(); ++c) {
+        full.block<B, B>(B * c, B * c) = problem_.own[c] + added[c];
+        for (int k = problem_.first[c]; k < problem_.first[c + 1]; ++k)
+          full.block<B, B>(B * c, B * problem_.neighbour[k]) = problem_.block[k];
+      }
+      dense_solver_.compute(full);
+      return true;
+    }
+    for (int c = 0; c < problem_.size(); ++c)
+      for (int b = 0; b < B; ++b)
+        for (int a = 0; a < B; ++a)
+          matrix_.valuePtr()[own_place_[B * c + b] + a] = problem_.own[c](a, b) + added[c](a, b);
+    sparse_solver_.factorize(matrix_);
+    return sparse_solver_.info() == Eigen::Success;
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) {
+    return dense_ ? Eigen::VectorXd(dense_solver_.solve(right)) : Eigen::VectorXd(sparse_solver_.solve(right));
+  }
+
+ private:
+  void prepare() {
+    const int rows = B * problem_.size();
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](int c, int j, const Block& block) {
+      for (int a = 0; a < B; ++a)
+        for (int b = 0; b < B; ++b) entries.emplace_back(B * c + a, B * j + b, block(a, b));
+    };
+    for (int c = 0; c < problem_.size(); ++c) {
+      add(c, c, problem_.own[c]);
+      for (int k = problem_.first[c]; k < problem_.first[c + 1]; ++k) add(c, problem_.neighbour[k], problem_.block[k]);
+    }
+    matrix_.resize(rows, rows);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    matrix_.makeCompressed();
+    own_place_.resize(rows);
+    for (int column = 0; column < rows; ++column) {
+      const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+      const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+      own_place_[column] = static_cast<int>(std::lower_bound(begin, end, column / B * B) - matrix_.innerIndexPtr());
+    }
+  }
+
+  const ScaledProblem<B>& problem_;
+  bool dense_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_solver_;
+  Eigen::SparseMatrix<double> matrix_;
+  std::vector<int> own_place_;  ///< of the first number of a column's own block
+  Eigen::UmfPackLU<Eigen::SparseMatrix<double>> sparse_solver_;
+};
+
+}  // namespace galet::cd

@@ -1,0 +1,170 @@
+#include "cd/discrete/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "cd/discrete/interior_point.hpp"
+#include "cd/discrete/iterations.hpp"
+#include "cd/discrete/sweeps.hpp"
+#include "common/core/error.hpp"
+
+namespace galet::cd {
+
+namespace {
+
+constexpr Momentum exact_momentum{0.9, 1.05}, current_momentum{0.9, 1.5}, frozen_momentum{1, 0};
+constexpr int frozen_sweeps = 20;
+constexpr long endless = std::numeric_limits<long>::max();
+/// Rows up to which a factorisation of W costs no more than the sweeps that it may save.
+constexpr int most_factored_rows = 6000;
+
+template <int B>
+class Solvers {
+ public:
+  using Vector = typename ScaledProblem<B>::Vector;
+  Solvers(const ScaledProblem<B>& problem, Monitor<B>& monitor) : problem_(problem), monitor_(monitor) {}
+
+  bool gauss_seidel(long budget) { return exact("gs", {0, 0}, budget); }
+  bool momentum(long budget) { return exact("ags", exact_momentum, budget); }
+  bool conjugate(long budget) {
+    monitor_.begin("nncg");
+    auto r = monitor_.best();
+    ExactSweep<B> sweep(problem_);
+    return iterate_conjugate<B>(sweep, budget, r, monitor_);
+  }
+  bool projected(long budget) { return projected("pgs", 0, current_momentum, budget); }
+  bool frozen(long budget) { return projected("pgs-frozen", frozen_sweeps, frozen_momentum, budget); }
+  bool interior_point(long budget) {
+    monitor_.begin("ipm");
+    return InteriorPoint<B>(problem_).solve(budget, monitor_);
+  }
+
+  /// Cheap methods first; each starts from the best iterate, and rounds grow.
+  bool automatic() {
+    const bool bulk = problem_.diagonal && problem_.size() > 2000;
+    if (bulk) return in_bulk();
+    for (double budget = 1;; budget *= 2.5) {
+      const auto sweeps = [&](double count) { return static_cast<long>(count * budget); };
+      if constexpr (B != 5)
+        if (momentum(sweeps(300))) return true;
+      if (projected(sweeps(600))) return true;
+      if (frozen(sweeps(2000))) return true;
+      if (B * problem_.size() <= most_factored_rows && interior_point(60)) return true;
+    }
+  }
+
+ private:
+  bool exact(const char* name, const Momentum& momentum, long budget) {
+    monitor_.begin(name);
+    auto r = monitor_.best();
+    ExactSweep<B> sweep(problem_);
+    return iterate<B>(sweep, momentum, budget, r, monitor_);
+  }
+  bool projected(const char* name, int frozen, const Momentum& momentum, long budget) {
+    monitor_.begin(name);
+    auto r = monitor_.best();
+    ProjectedSweep<B> sweep(problem_, frozen, r);
+    return iterate<B>(sweep, momentum, budget, r, monitor_);
+  }
+
+  /// Many grains: momentum for as long as it halves the error in a thousand sweeps, then conjugate directions.
+  bool in_bulk() {
+    for (double before = monitor_.best_error().scaled;; before = monitor_.best_error().scaled) {
+      if (momentum(1000)) return true;
+      if (monitor_.best_error().scaled > 0.5 * before) break;
+    }
+    return conjugate(endless);
+  }
+
+  const ScaledProblem<B>& problem_;
+  Monitor<B>& monitor_;
+};
+
+template <int B>
+using Method = bool (*)(Solvers<B>&);
+
+template <int B>
+struct Named {
+  std::string_view name;
+  Method<B> run;
+};
+
+template <int B>
+constexpr Named<B> methods[] = {
+    {"auto", [](Solvers<B>& solvers) { return solvers.automatic(); }},
+    {"gs", [](Solvers<B>& solvers) { return solvers.gauss_seidel(endless); }},
+    {"ags", [](Solvers<B>& solvers) { return solvers.momentum(endless); }},
+    {"nncg", [](Solvers<B>& solvers) { return solvers.conjugate(endless); }},
+    {"pgs", [](Solvers<B>& solvers) { return solvers.projected(endless); }},
+    {"pgs-frozen", [](Solvers<B>& solvers) { return solvers.frozen(endless); }},
+    {"ipm", [](Solvers<B>& solvers) { return solvers.interior_point(200); }},
+};
+
+template <int B>
+DiscreteSolution solve_blocks(const DiscreteProblem& given, const DiscreteOptions& options) {
+  const ScaledProblem<B> problem(given);
+  using Vector = typename ScaledProblem<B>::Vector;
+  const std::vector<double> zero(given.rows(), 0.0);
+  std::vector<Vector> start = problem.scaled(options.start.empty() ? zero : options.start);
+  Monitor<B> monitor(problem, options, std::move(start));
+  Solvers<B> solvers(problem, monitor);
+  const auto* method = std::find_if(std::begin(methods<B>), std::end(methods<B>),
+                                    [&](const Named<B>& named) { return named.name == options.solver; });
+  if (!monitor.done()) method->run(solvers);
+
+  DiscreteSolution solution;
+  solution.r = problem.physical(monitor.best());
+  solution.u.resize(solution.r.size());
+  for (int c = 0; c < problem.size(); ++c)
+    Eigen::Map<Vector>(&solution.u[B * c]) =
+        problem.motion(c, std::span<const Vector>(monitor.best())).cwiseQuotient(problem.scale[c]);
+  const DiscreteError& error = monitor.best_error();
+  solution.error = error.scaled, solution.siconos_error = error.siconos;
+  solution.force_error = error.force, solution.violation = error.violation;
+  solution.converged = monitor.reached();
+  solution.reason = monitor.reached()       ? "error reached"
+                    : monitor.unbounded()   ? "no solution"
+                    : monitor.out_of_time() ? "out of time"
+                                            : "stalled";
+  solution.solver = monitor.best_solver();
+  solution.iterations = monitor.iterations();
+  solution.seconds = monitor.seconds();
+  solution.history = monitor.take_history();
+  return solution;
+}
+
+}  // namespace
+
+std::vector<std::string_view> discrete_solvers() {
+  std::vector<std::string_view> names;
+  for (const Named<3>& method : methods<3>) names.push_back(method.name);
+  return names;
+}
+
+DiscreteSolution solve(const DiscreteProblem& problem, const DiscreteOptions& options) {
+  const std::vector<std::string> mistakes = mistakes_of(problem);
+  require(mistakes.empty(), mistakes.empty() ? "" : mistakes.front().c_str());
+  const auto names = discrete_solvers();
+  require(std::find(names.begin(), names.end(), options.solver) != names.end(), "no such solver of contact problems");
+  require(options.start.empty() || options.start.size() == problem.q.size(), "the start has another size than q");
+  if (problem.contacts() == 0) {
+    DiscreteSolution nothing;
+    nothing.converged = true, nothing.reason = "error reached";
+    return nothing;
+  }
+  switch (problem.block) {
+    case 2:
+      return solve_blocks<2>(problem, options);
+    case 3:
+      return solve_blocks<3>(problem, options);
+    default:
+      return solve_blocks<5>(problem, options);
+  }
+}
+
+}  // namespace galet::cd

@@ -1,0 +1,233 @@
+// Discrete contact problems: answers are held against Coulomb's law itself, contact by contact, never against the
+// residual that stopped the solver.
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "cd/discrete/one_contact.hpp"
+#include "cd/discrete/solve.hpp"
+
+namespace galet::cd {
+namespace {
+
+/// W = H^T M^-1 H and q = H^T v of bodies that move as they like: such problems have a solution.
+DiscreteProblem random_problem(int block, int contacts, int freedoms, double mu, std::mt19937& random,
+                               double mass_ratio = 10) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  DiscreteProblem problem;
+  problem.block = block;
+  problem.mu.assign(contacts, mu);
+  if (block == 5) problem.mu_r.assign(contacts, 0.3 * mu);
+  const int rows = block * contacts;
+  Eigen::MatrixXd h(freedoms, rows);
+  Eigen::VectorXd v(freedoms), inverse_mass(freedoms);
+  for (int a = 0; a < h.size(); ++a) h.data()[a] = normal(random);
+  for (int a = 0; a < freedoms; ++a) v[a] = normal(random), inverse_mass[a] = std::pow(mass_ratio, -uniform(random));
+  const Eigen::MatrixXd w = h.transpose() * inverse_mass.asDiagonal() * h;
+  const Eigen::VectorXd q = h.transpose() * v;
+  problem.q.assign(q.data(), q.data() + rows);
+  problem.start.assign(1, 0);
+  for (int a = 0; a < rows; ++a) {
+    for (int b = 0; b < rows; ++b) problem.column.push_back(b), problem.value.push_back(w(a, b));
+    problem.start.push_back(static_cast<std::int64_t>(problem.value.size()));
+  }
+  return problem;
+}
+
+/// u = W r + q by the definition.
+std::vector<double> motion_of(const DiscreteProblem& problem, const std::vector<double>& r) {
+  std::vector<double> u = problem.q;
+  for (int a = 0; a < problem.rows(); ++a)
+    for (std::int64_t k = problem.start[a]; k < problem.start[a + 1]; ++k)
+      u[a] += problem.value[k] * r[problem.column[k]];
+  return u;
+}
+
+/// One bound: |t| <= limit, and t opposite to the motion m where there is any.
+void expect_bound(const Eigen::VectorXd& t, const Eigen::VectorXd& m, double limit, double tolerance_r,
+                  double tolerance_u) {
+  EXPECT_LE(t.norm(), limit + tolerance_r);
+  if (m.norm() > tolerance_u) {
+    EXPECT_LT((t + limit * m / m.norm()).norm(), tolerance_r * (1 + limit) * (1 + 1 / m.norm()));
+  }
+}
+
+/// Signorini's and Coulomb's laws at every contact within `tolerance`, relative to the problem's sizes.
+void expect_coulomb(const DiscreteProblem& problem, const std::vector<double>& r, double tolerance) {
+  const std::vector<double> u = motion_of(problem, r);
+  double size_r = 1e-300, size_u = 1e-300;
+  for (const double value : r) size_r = std::max(size_r, std::abs(value));
+  // Motions are sums of terms W r that may be far above q: they are as exact as those.
+  for (int a = 0; a < problem.rows(); ++a) {
+    double terms = std::abs(problem.q[a]);
+    for (std::int64_t k = problem.start[a]; k < problem.start[a + 1]; ++k)
+      terms += std::abs(problem.value[k] * r[problem.column[k]]);
+    size_u = std::max(size_u, terms);
+  }
+  const int tangential = problem.block == 2 ? 1 : 2;
+  for (int c = 0; c < problem.contacts(); ++c) {
+    const Eigen::Map<const Eigen::VectorXd> rc(&r[problem.block * c], problem.block);
+    const Eigen::Map<const Eigen::VectorXd> uc(&u[problem.block * c], problem.block);
+    EXPECT_GE(rc[0], -tolerance * size_r);
+    EXPECT_GE(uc[0], -tolerance * size_u);
+    EXPECT_LT(std::min(rc[0] / size_r, uc[0] / size_u), tolerance);
+    expect_bound(rc.segment(1, tangential), uc.segment(1, tangential), problem.mu[c] * rc[0], tolerance * size_r,
+                 tolerance * size_u);
+    if (problem.block == 5)
+      expect_bound(rc.tail(2), uc.tail(2), problem.mu_r[c] * rc[0], tolerance * size_r, tolerance * size_u);
+  }
+}
+
+TEST(DiscreteSolver, AnswersObeyCoulombsLaw) {
+  std::mt19937 random(1);
+  int solved = 0, asked = 0;
+  for (const int block : {2, 3, 5})
+    for (const double mu : {0.0, 0.3, 1.0, 10.0})
+      for (int k = 0; k < 20; ++k) {
+        // From one contact to more numbers than freedoms: W is then singular.
+        const int contacts = 1 + k % 5;
+        const DiscreteProblem problem = random_problem(block, contacts, 8, mu, random, k % 2 ? 10 : 1e8);
+        DiscreteOptions options;
+        options.error = 1e-10;
+        options.seconds = 0.2;
+        const DiscreteSolution solution = solve(problem, options);
+        ++asked;
+        if (!solution.converged) {
+          EXPECT_NE(solution.reason, "error reached");
+          continue;
+        }
+        ++solved;
+        SCOPED_TRACE(testing::Message() << "block " << block << " mu " << mu << " number " << k);
+        // Forces of singular problems are known to errS times the condition of what W leaves: 1e4 of these.
+        expect_coulomb(problem, solution.r, 1e-6);
+      }
+  // All but a few: large mu with hyperstatic contacts is where no method is certain.
+  EXPECT_GE(solved, asked * 95 / 100);
+}
+
+TEST(DiscreteSolver, EveryMethodReachesTheSameMotion) {
+  std::mt19937 random(2);
+  for (const int block : {2, 3, 5}) {
+    // More freedoms than numbers: W is definite, and small friction leaves one solution.
+    const DiscreteProblem problem = random_problem(block, 6, 60, 0.1, random);
+    std::vector<double> first;
+    for (const std::string_view name : discrete_solvers()) {
+      DiscreteOptions options;
+      options.solver = name;
+      // Interior points floor near 1e-8 where a contact is at the edge of two states.
+      options.error = name == "ipm" ? 1e-7 : 1e-10;
+      const DiscreteSolution solution = solve(problem, options);
+      EXPECT_TRUE(solution.converged) << name << " errS " << solution.error;
+      EXPECT_EQ(solution.u.size(), problem.q.size());
+      if (first.empty()) first = solution.r;
+      for (std::size_t a = 0; a < first.size(); ++a) EXPECT_NEAR(solution.r[a], first[a], 100 * options.error) << name;
+    }
+  }
+}
+
+TEST(DiscreteSolver, OneContactIsSolvedExactly) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 2);
+  for (int k = 0; k < 2000; ++k) {
+    const double mu = k % 7 == 0 ? 0 : uniform(random);
+    {
+      const DiscreteProblem problem = random_problem(3, 1, 5, mu, random);
+      const BlockOf<3> w = Eigen::Map<const BlockOf<3>>(problem.value.data());
+      const Eigen::Vector3d r =
+          solve_contact(w, Eigen::Map<const Eigen::Vector3d>(problem.q.data()), {mu, 0}, Eigen::Vector3d::Zero());
+      expect_coulomb(problem, {r[0], r[1], r[2]}, 1e-11);
+    }
+    {
+      const DiscreteProblem problem = random_problem(2, 1, 4, 0.2 * mu, random);
+      const BlockOf<2> w = Eigen::Map<const BlockOf<2>>(problem.value.data());
+      const Eigen::Vector2d r =
+          solve_contact(w, Eigen::Map<const Eigen::Vector2d>(problem.q.data()), {0.2 * mu, 0}, Eigen::Vector2d::Zero());
+      expect_coulomb(problem, {r[0], r[1]}, 1e-11);
+    }
+  }
+}
+
+/// One contact with W = I.
+DiscreteProblem unit_problem(std::vector<double> q, double mu) {
+  DiscreteProblem problem;
+  problem.block = static_cast<int>(q.size());
+  problem.q = std::move(q);
+  problem.mu = {mu};
+  for (int a = 0; a <= problem.block; ++a) problem.start.push_back(a);
+  for (int a = 0; a < problem.block; ++a) problem.column.push_back(a), problem.value.push_back(1);
+  return problem;
+}
+
+TEST(DiscreteError, IsTheDistanceOfTheNaturalMap) {
+  DiscreteOptions nothing;
+  nothing.seconds = 0;  // the start is returned
+  nothing.solver = "gs";
+  // r = 0 under u = (-1, 0, 0): the map asks for (1, 0, 0); sizes: |q| = |u| = 1.
+  nothing.start = {0, 0, 0};
+  EXPECT_DOUBLE_EQ(solve(unit_problem({-1, 0, 0}, 0.5), nothing).error, 1);
+  // Slip at the bound solves.
+  nothing.start = {1, -0.5, 0};
+  EXPECT_LT(solve(unit_problem({-1, 2, 0}, 0.5), nothing).error, 1e-15);
+  // At half the bound: u = (0, 1.75, 0), u^_N = 0.875, y = (0.125, -2, 0), P = (0.9, -0.45, 0), miss (0.1, 0.2).
+  nothing.start = {1, -0.25, 0};
+  EXPECT_NEAR(solve(unit_problem({-1, 2, 0}, 0.5), nothing).error, std::hypot(0.1, 0.2) / std::sqrt(5.0), 1e-15);
+}
+
+TEST(DiscreteError, DependsOnNoUnit) {
+  std::mt19937 random(4);
+  DiscreteProblem problem = random_problem(5, 4, 30, 0.4, random);
+  DiscreteOptions options;
+  options.solver = "gs";
+  options.seconds = 0;
+  options.start.assign(problem.q.size(), 0.0);
+  for (std::size_t a = 0; a < options.start.size(); ++a) options.start[a] = std::sin(1.0 + static_cast<double>(a));
+  const DiscreteSolution before = solve(problem, options);
+  // Mass, length and time in other units: W_TT by 1/mass, r_R by mass length^2 / time, mu_r by a length.
+  const double mass = 7, length = 0.01, time = 3;
+  const auto unit_u = [&](int a) { return a % 5 < 3 ? length / time : 1 / time; };
+  const auto unit_r = [&](int a) { return (a % 5 < 3 ? 1 : length) * mass * length / time; };
+  for (int a = 0; a < problem.rows(); ++a) {
+    problem.q[a] *= unit_u(a), options.start[a] *= unit_r(a);
+    for (std::int64_t k = problem.start[a]; k < problem.start[a + 1]; ++k)
+      problem.value[k] *= unit_u(a) / unit_r(problem.column[k]);
+  }
+  for (double& mu_r : problem.mu_r) mu_r *= length;
+  const DiscreteSolution after = solve(problem, options);
+  EXPECT_NEAR(after.error, before.error, 1e-13 * before.error);
+  EXPECT_GT(std::abs(after.siconos_error - before.siconos_error), 1e-3 * before.siconos_error);
+}
+
+TEST(DiscreteSolver, SaysWhyItStopped) {
+  // Nothing can move the contact, which closes all the same: no solution.
+  DiscreteProblem stuck = unit_problem({-1, 0, 0}, 0.5);
+  stuck.value.assign(3, 0.0);
+  DiscreteOptions options;
+  options.seconds = 0.05;
+  for (const std::string_view name : discrete_solvers()) {
+    options.solver = name;
+    const DiscreteSolution solution = solve(stuck, options);
+    EXPECT_FALSE(solution.converged) << name;
+    EXPECT_NE(solution.reason, "error reached") << name;
+    for (const double value : solution.r) EXPECT_TRUE(std::isfinite(value)) << name;
+  }
+}
+
+TEST(DiscreteSolver, RefusesWhatIsNoProblem) {
+  DiscreteProblem bad = unit_problem({-1, 0, 0}, 0.5);
+  bad.mu[0] = -1;
+  EXPECT_THROW(solve(bad, {}), std::invalid_argument);
+  bad = unit_problem({-1, 0, 0}, 0.5);
+  bad.column[1] = 7;
+  EXPECT_THROW(solve(bad, {}), std::invalid_argument);
+  bad = unit_problem({-1, std::nan(""), 0}, 0.5);
+  EXPECT_THROW(solve(bad, {}), std::invalid_argument);
+  DiscreteOptions options;
+  options.solver = "jacobi";
+  EXPECT_THROW(solve(unit_problem({-1, 0, 0}, 0.5), options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace galet::cd
