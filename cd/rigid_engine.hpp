@@ -23,6 +23,7 @@
 #include "cd/assembly.hpp"
 #include "cd/contact_account.hpp"
 #include "cd/contact_history.hpp"
+#include "cd/discrete/discrete_form.hpp"
 #include "cd/elastic_contacts.hpp"
 #include "cd/problem.hpp"
 #include "cd/solvers/nsgs.hpp"
@@ -33,7 +34,7 @@
 namespace galet::cd {
 
 template <Layout Y>
-class RigidEngine final : public Engine<Y.dim> {
+class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
  public:
   static constexpr int D = Y.dim;
 
@@ -76,6 +77,14 @@ class RigidEngine final : public Engine<Y.dim> {
 
   void advance(long count) override {
     for (long k = 0; k < count; ++k) step();
+  }
+
+  StepProblem step_with_problem() override {
+    StepProblem problem;
+    capture_ = &problem;
+    step();
+    capture_ = nullptr;
+    return problem;
   }
 
   Snapshot<D> snapshot() override {
@@ -158,6 +167,7 @@ class RigidEngine final : public Engine<Y.dim> {
                         0.5 * moved));
       fastest = std::max(fastest, fastest_of(iterate_.velocity));
     }
+    if (capture_ != nullptr) *capture_ = present_problem();
     StageTimer timer(profile_, Stage::grains);
     if (!compliant_) account();
     accept_velocities();
@@ -297,7 +307,7 @@ class RigidEngine final : public Engine<Y.dim> {
     iterate_.reaction.reserve(problem_.i.capacity());
     iterate_.reaction.resize(problem_.size());
     Mat<D> virial = Mat<D>::Zero();
-    if (cohesive_) attract(virial);
+    if (cohesive_) attract(iterate_, virial);
     for (std::size_t k = 0; k < problem_.size(); ++k) {
       iterate_.reaction[k] = history_.warm_start(problem_, k, history_.present[assembly_.row_of()[k]]);
       add_reaction(problem_, iterate_, k, iterate_.reaction[k], virial);
@@ -306,17 +316,26 @@ class RigidEngine final : public Engine<Y.dim> {
   }
 
   /// Gives the attraction of all pairs to their bodies.
-  void attract(Mat<D>& virial) {
+  void attract(Iterate<Y>& iterate, Mat<D>& virial) const {
     for (std::size_t row = 0; row < list_.size(); ++row) {
       const double impulse = history_.attracted[row];
       if (impulse == 0) continue;
       const int i = list_.pairs().i[row], j = list_.pairs().j[row];
       const ContactFrame<D>& frame = assembly_.frame(row);
       const Vec<D> p = -impulse * frame.normal;
-      push(problem_, iterate_, body_of(bodies_, i), Vec<D>(-p));
-      push(problem_, iterate_, body_of(bodies_, j), p);
+      push(problem_, iterate, body_of(bodies_, i), Vec<D>(-p));
+      push(problem_, iterate, body_of(bodies_, j), p);
       virial += p * frame.branch.transpose();
     }
+  }
+
+  /// The problem that was just solved.
+  StepProblem present_problem() const {
+    Iterate<Y> free = free_;
+    Mat<D> virial = Mat<D>::Zero();
+    if (cohesive_) attract(free, virial);
+    add_to_hub(problem_, free, virial);
+    return DiscreteForm<Y>::of(problem_, free, iterate_.reaction);
   }
 
   void note(const SolveReport& report) {
@@ -415,6 +434,7 @@ class RigidEngine final : public Engine<Y.dim> {
   DriftCorrection<Y> drift_;
   ContactColumns<D> shown_;
   SolverSummary summary_;
+  StepProblem* capture_ = nullptr;  ///< where this step's problem is wanted, if it is
   Profile profile_;
   std::vector<double> partial_;
 };

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   galet::cli::add_compare(app, action);
   galet::cli::add_describe(app, action);
   galet::cli::add_check(app, action);
+  galet::cli::add_solve(app, action);
   galet::cli::add_export(app, action);
   galet::cli::add_reference(app, action);
   try {

@@ -27,6 +27,8 @@ namespace {
 
 using hdf5::checked;
 using hdf5::Handle;
+using hdf5::Properties;
+using hdf5::simple_space;
 
 constexpr std::size_t block_size = 512;  // the least that HDF5 allows
 constexpr std::string_view format_name = "galet checkpoint";
@@ -54,11 +56,6 @@ void check_name(const std::string& name) {
             "checkpoint column '" + name + "': a name is one or more non-empty words joined by '/'");
 }
 
-Handle simple_space(std::size_t count) {
-  const hsize_t extent = count;
-  return {H5Screate_simple(1, &extent, nullptr), H5Sclose, "making a data space"};
-}
-
 Handle text_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
   checked(H5Tset_size(type, size), "sizing a text type");
@@ -66,16 +63,6 @@ Handle text_type(std::size_t size) {
   checked(H5Tset_cset(type, H5T_CSET_UTF8), "setting the encoding of a text type");
   return type;
 }
-
-/// Creation properties shared by everything: no time stamps, so that equal archives give equal files.
-struct Properties {
-  Handle link{H5Pcreate(H5P_LINK_CREATE), H5Pclose, "making link properties"};
-  Handle dataset{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "making dataset properties"};
-  Properties() {
-    checked(H5Pset_create_intermediate_group(link, 1), "setting link properties");
-    checked(H5Pset_obj_track_times(dataset, false), "setting dataset properties");
-  }
-};
 
 void write_dataset(hid_t group, const Properties& properties, const std::string& name, hid_t stored, hid_t memory,
                    const Handle& space, const void* data) {
@@ -122,15 +109,7 @@ void fill_file(hid_t file, const Archive& archive) {
 std::string file_image(const Archive& archive) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "making file properties");
   checked(H5Pset_userblock(creation, block_size), "reserving the user block");
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
-  checked(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "keeping the file in memory");
-  const Handle file(H5Fcreate("checkpoint in memory", H5F_ACC_TRUNC, creation, access), H5Fclose, "making the file");
-  fill_file(file, archive);
-  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "completing the file");
-  const ssize_t size = checked(H5Fget_file_image(file, nullptr, 0), "sizing the file");
-  std::string image(static_cast<std::size_t>(size), '\0');
-  checked(H5Fget_file_image(file, image.data(), image.size()), "copying the file");
-  return image;
+  return hdf5::file_image(creation, [&](hid_t file) { fill_file(file, archive); });
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
@@ -215,9 +194,7 @@ Number read_attribute(hid_t object, const char* name, hid_t memory) {
 
 /// Reads a file whose bytes have been checked.
 Archive read_columns(const std::string& path) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
-  checked(H5Pset_file_locking(access, false, true), "turning locks off");  // not every file system has them
-  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
+  const Handle file = hdf5::open_to_read(path);
   Archive archive;
   const Handle reals(H5Gopen2(file, "reals", H5P_DEFAULT), H5Gclose, "opening the real columns");
   for (const std::string& name : dataset_names(reals))

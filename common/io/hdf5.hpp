@@ -67,4 +67,41 @@ class Handle {
   Close close_;
 };
 
+inline Handle simple_space(std::size_t count) {
+  const hsize_t extent = count;
+  return {H5Screate_simple(1, &extent, nullptr), H5Sclose, "making a data space"};
+}
+
+/// Creation properties of datasets and of the groups on their way: no time stamps, so that equal contents give equal
+/// files.
+struct Properties {
+  Handle link{H5Pcreate(H5P_LINK_CREATE), H5Pclose, "making link properties"};
+  Handle dataset{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "making dataset properties"};
+  Properties() {
+    checked(H5Pset_create_intermediate_group(link, 1), "setting link properties");
+    checked(H5Pset_obj_track_times(dataset, false), "setting dataset properties");
+  }
+};
+
+/// The bytes of a file that is made in memory; `fill` writes into it. `creation`: properties of the file.
+template <class Fill>
+std::string file_image(hid_t creation, const Fill& fill) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
+  checked(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "keeping the file in memory");
+  const Handle file(H5Fcreate("file in memory", H5F_ACC_TRUNC, creation, access), H5Fclose, "making the file");
+  fill(file);
+  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "completing the file");
+  const ssize_t size = checked(H5Fget_file_image(file, nullptr, 0), "sizing the file");
+  std::string image(static_cast<std::size_t>(size), '\0');
+  checked(H5Fget_file_image(file, image.data(), image.size()), "copying the file");
+  return image;
+}
+
+/// A file that is only read. Without locks: not every file system has them.
+inline Handle open_to_read(const std::string& path) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
+  checked(H5Pset_file_locking(access, false, true), "turning locks off");
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening the file"};
+}
+
 }  // namespace galet::hdf5

@@ -16,6 +16,7 @@ void add_run(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_describe(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_solve(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
 

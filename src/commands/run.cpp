@@ -10,6 +10,7 @@
 #include "common/io/checkpoint.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
+#include "src/commands/dump_problem.hpp"
 #include "src/commands/interrupt.hpp"
 #include "src/commands/progress_line.hpp"
 #include "src/dimension.hpp"
@@ -29,6 +30,8 @@ struct RunArguments {
   std::string resume;
   int threads = 1;
   double checkpoint_every = 300;
+  std::optional<long> dump_step;  ///< write the contact problem of this step, and stop
+  std::string dump_file;
   bool json = false;
 };
 
@@ -114,6 +117,15 @@ int run_job(const RunArguments& arguments, const Job& job) {
   const std::string last_good_path = path_in(job.directory, engine + "_last_good.h5");
   Simulation<D> simulation = job.archive ? Simulation<D>::resume(job.scene, *job.archive, job.changes)
                                          : Simulation<D>(job.scene, job.engine, job.changes);
+  if (arguments.dump_step) {
+    const std::string file = arguments.dump_file.empty()
+                                 ? path_in(job.directory, fmt::format("problem_{}.hdf5", *arguments.dump_step))
+                                 : arguments.dump_file;
+    catch_interrupts();
+    RunControl control;
+    control.stop = interrupted;
+    return dump_problem(simulation, {*arguments.dump_step, file, job.title}, control);
+  }
   if (!arguments.json)
     fmt::print("{}\n{} engine, {}, {} grains\n", job.title, engine, to_string(simulation.derived().layout),
                simulation.derived().grains.count);
@@ -164,7 +176,16 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--checkpoint-every", arguments->checkpoint_every, "seconds between checkpoints")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "print one JSON object");
+  CLI::Option* dump = command
+                          ->add_option("--dump-problem", arguments->dump_step,
+                                       "write the contact problem of this step (1: the first) as an FCLIB file, with "
+                                       "cd's impulses as its solution, and stop there")
+                          ->type_name("STEP")
+                          ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--dump-file", arguments->dump_file, "that file (default: problem_STEP.hdf5 in the results' folder)")
+      ->needs(dump);
+  command->add_flag("--json", arguments->json, "print one JSON object")->excludes(dump);
   command->callback([&action, arguments] { action = [arguments] { return run_scene(*arguments); }; });
 }
 

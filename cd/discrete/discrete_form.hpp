@@ -1,0 +1,234 @@
+// A matrix-free contact problem (cd/problem.hpp) as a discrete one (cd/discrete/problem.hpp), in the frame (n, t1, t2)
+// of each contact:
+//
+//   W = sum over bodies of J M^-1 J^T  +  sum over modes of the hub of g g^T / inertia  +  compliance (diagonal)
+//   q = u of the free velocities + offset (N) + lag (T, R)
+//
+// J: rows n.(v_j - v_i), t.(v_j - v_i) - arm (n x t).w, t.(w_j - w_i); g: n.G b and t.G b, b the branch.
+// Disks: t = (-n_y, n_x). Spheres: t1 is any direction across n (Eigen's unitOrthogonal), t2 = n x t1.
+//
+//   layout          block   mu
+//   frictionless    D       0 (the tangential rows hold the motion of the centres; nothing depends on them)
+//   friction        D       that of the pair
+//   rolling, disks  5       (N, T, 0, R, 0): the second directions are coupled to nothing, and have W of the first and
+//                           q = 0; their impulses are then zero in every solution
+//   rolling, spheres 5      (N, T1, T2, R1, R2), where no pair resists pivoting; else refused
+//
+// Cost: contacts times neighbouring contacts; with a hub every pair of contacts, refused above 3000 of them.
+#pragma once
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cd/discrete/step_problem.hpp"
+#include "cd/problem.hpp"
+#include "common/core/error.hpp"
+
+namespace galet::cd {
+
+template <Layout Y>
+class DiscreteForm {
+ public:
+  static constexpr int D = Y.dim;
+  static constexpr int spins = D == 2 ? 1 : 3;
+  static constexpr int block = Y.rolling ? 5 : D;
+  static constexpr int most_hub_contacts = 3000;
+
+  /// `free`: velocities without any reaction (attraction included); `reaction`: the engine's impulses.
+  static StepProblem of(const Problem<Y>& problem, const Iterate<Y>& free, const Column<Reaction<Y>>& reaction) {
+    const DiscreteForm form(problem);
+    StepProblem step;
+    step.problem.block = block;
+    for (std::size_t c = 0; c < form.kept_.size(); ++c) {
+      const std::size_t k = form.kept_[c];
+      if constexpr (Y.friction) step.problem.mu.push_back(problem.laws[problem.law[k]].friction);
+      if constexpr (!Y.friction) step.problem.mu.push_back(0);
+      if constexpr (Y.rolling) step.problem.mu_r.push_back(problem.laws[problem.law[k]].rolling);
+      append(form.local(c, law_motion(problem, free, free.gradient, k, Components<Y>{})), step.problem.q);
+      append(form.local(c, components<Y>(problem.normal[k], reaction[k])), step.r);
+    }
+    form.fill_matrix(step.problem);
+    step.u = step.problem.q;
+    for (int a = 0; a < step.problem.rows(); ++a)
+      for (std::int64_t e = step.problem.start[a]; e < step.problem.start[a + 1]; ++e)
+        step.u[a] += step.problem.value[e] * step.r[step.problem.column[e]];
+    return step;
+  }
+
+ private:
+  using Block = Eigen::Matrix<double, block, block>;
+  using Values = Eigen::Matrix<double, block, 1>;
+  using Jacobian = Eigen::Matrix<double, block, D + spins>;
+  using Mobility = Eigen::Matrix<double, D + spins, D + spins>;
+
+  /// The part of one body in the motion of a contact.
+  struct Side {
+    int contact;
+    Jacobian jacobian;
+  };
+
+  explicit DiscreteForm(const Problem<Y>& problem) : problem_(problem), sides_(problem.inverse_mass.size()) {
+    for (std::size_t k = 0; k < problem.size(); ++k) {
+      if (problem.wn[k] == 0) continue;
+      if constexpr (Y.rolling && D == 3)
+        if (problem.laws[problem.law[k]].pivoting > 0)
+          throw InputError(
+              "contacts that resist pivoting have no FCLIB form: set material.pivoting_friction = 0, or leave it out");
+      const int contact = static_cast<int>(kept_.size());
+      kept_.push_back(k);
+      tangents_.push_back(tangents(problem.normal[k]));
+      const int i = problem.i[k], j = problem.j[k];
+      if (i == j) {
+        sides_[i].push_back({contact, jacobian(contact, -1, arm_i(k)) + jacobian(contact, 1, arm_j(k))});
+      } else {
+        sides_[i].push_back({contact, jacobian(contact, -1, arm_i(k))});
+        sides_[j].push_back({contact, jacobian(contact, 1, arm_j(k))});
+      }
+    }
+    if (!problem.hub.empty() && kept_.size() > most_hub_contacts)
+      throw InputError(
+          fmt::format("a stress-driven cell couples all {} contacts of this step: such a problem can be "
+                      "written for {} contacts at most",
+                      kept_.size(), most_hub_contacts));
+  }
+
+  static void append(const Values& values, std::vector<double>& to) {
+    to.insert(to.end(), values.data(), values.data() + block);
+  }
+
+  /// Directions across the normal, by column.
+  static Eigen::Matrix<double, D, D - 1> tangents(const Vec<D>& n) {
+    Eigen::Matrix<double, D, D - 1> across;
+    if constexpr (D == 2) {
+      across = Vec<2>(-n.y(), n.x());
+    } else {
+      across.col(0) = n.unitOrthogonal();
+      across.col(1) = n.cross(across.col(0));
+    }
+    return across;
+  }
+
+  double arm_i(std::size_t k) const {
+    if constexpr (Y.friction) return problem_.arm_i[k];
+    return 0;
+  }
+  double arm_j(std::size_t k) const {
+    if constexpr (Y.friction) return problem_.arm_j[k];
+    return 0;
+  }
+
+  /// Components by the contact's own directions; zero in directions that disks have not.
+  Values local(std::size_t contact, const Components<Y>& parts) const {
+    Values values = Values::Zero();
+    values[0] = parts.normal;
+    if constexpr (D == 2) {
+      values[1] = parts.tangential;
+      if constexpr (Y.rolling) values[3] = parts.rolling;
+    } else {
+      values.template segment<2>(1) = tangents_[contact].transpose() * parts.tangential;
+      if constexpr (Y.rolling) values.template segment<2>(3) = tangents_[contact].transpose() * parts.rolling;
+    }
+    return values;
+  }
+
+  /// Motion of the contact by velocity and spin of its body j (side = 1) or i (side = -1).
+  Jacobian jacobian(int contact, double side, double arm) const {
+    const Vec<D>& n = problem_.normal[kept_[contact]];
+    const auto& t = tangents_[contact];
+    Jacobian by = Jacobian::Zero();
+    by.template block<1, D>(0, 0) = side * n.transpose();
+    by.template block<D - 1, D>(1, 0) = side * t.transpose();
+    if constexpr (D == 2) {
+      by(1, D) = -arm;
+      if constexpr (Y.rolling) by(3, D) = side;
+    } else {
+      by.template block<1, 3>(1, D) = -arm * t.col(1).transpose();
+      by.template block<1, 3>(2, D) = arm * t.col(0).transpose();
+      if constexpr (Y.rolling) by.template block<2, 3>(3, D) = side * t.transpose();
+    }
+    return by;
+  }
+
+  Mobility mobility(int body) const {
+    Mobility answer = Mobility::Zero();
+    if (body < problem_.grains)
+      answer.diagonal().template head<D>().setConstant(problem_.inverse_mass[body]);
+    else if (problem_.mobile(body))
+      answer.template topLeftCorner<D, D>() = problem_.mobility[body - problem_.grains];
+    if constexpr (Y.friction) answer.diagonal().template tail<spins>().setConstant(problem_.inverse_inertia[body]);
+    return answer;
+  }
+
+  /// Blocks (c, d) of W with d >= c; the others are their transposes, so that W is symmetric to the last bit.
+  std::vector<std::map<int, Block>> upper_blocks() const {
+    std::vector<std::map<int, Block>> rows(kept_.size());
+    const auto add = [&](int c, int d, const Block& part) {
+      rows[c].try_emplace(d, Block::Zero()).first->second += part;
+    };
+    for (std::size_t body = 0; body < sides_.size(); ++body) {
+      const Mobility answer = mobility(static_cast<int>(body));
+      if (answer.isZero(0)) continue;
+      for (const Side& c : sides_[body])
+        for (const Side& d : sides_[body])
+          if (d.contact >= c.contact) add(c.contact, d.contact, c.jacobian * answer * d.jacobian.transpose());
+    }
+    for (const HubMode<D>& mode : problem_.hub) {
+      std::vector<Values> strain;
+      for (std::size_t c = 0; c < kept_.size(); ++c) strain.push_back(motion_of(c, mode.direction));
+      for (int c = 0; c < static_cast<int>(kept_.size()); ++c)
+        for (int d = c; d < static_cast<int>(kept_.size()); ++d)
+          add(c, d, mode.inverse_inertia * strain[c] * strain[d].transpose());
+    }
+    for (int c = 0; c < static_cast<int>(kept_.size()); ++c)
+      complete_diagonal(c, rows[c].try_emplace(c, Block::Zero()).first->second);
+    return rows;
+  }
+
+  /// Motion of a contact in a cell of this velocity gradient.
+  Values motion_of(std::size_t contact, const Mat<D>& gradient) const {
+    const std::size_t k = kept_[contact];
+    const Vec<D> u = problem_.distance[k] * (gradient * problem_.normal[k]);
+    Values values = Values::Zero();
+    values[0] = problem_.normal[k].dot(u);
+    values.template segment<D - 1>(1) = tangents_[contact].transpose() * u;
+    return values;
+  }
+
+  void complete_diagonal(int contact, Block& own) const {
+    own = (0.5 * (own + own.transpose())).eval();
+    if (problem_.compliant) {
+      const Compliance& compliance = problem_.compliance[kept_[contact]];
+      own(0, 0) += compliance.normal;
+      for (int a = 1; a < D; ++a) own(a, a) += compliance.tangential;
+      if constexpr (Y.rolling)
+        for (int a = 3; a < 2 + D; ++a) own(a, a) += compliance.rolling;
+    }
+    if constexpr (Y.rolling && D == 2) own(2, 2) = own(1, 1), own(4, 4) = own(3, 3);
+  }
+
+  void fill_matrix(DiscreteProblem& discrete) const {
+    std::vector<std::map<int, Block>> rows = upper_blocks();
+    for (int c = 0; c < static_cast<int>(rows.size()); ++c)
+      for (const auto& [d, part] : rows[c])
+        if (d > c) rows[d][c] = part.transpose();
+    discrete.start = {0};
+    for (int c = 0; c < static_cast<int>(rows.size()); ++c)
+      for (int a = 0; a < block; ++a) {
+        for (const auto& [d, part] : rows[c])
+          for (int b = 0; b < block; ++b) {
+            if (part(a, b) == 0 && !(c == d && a == b)) continue;
+            discrete.column.push_back(block * d + b);
+            discrete.value.push_back(part(a, b));
+          }
+        discrete.start.push_back(static_cast<std::int64_t>(discrete.value.size()));
+      }
+  }
+
+  const Problem<Y>& problem_;
+  std::vector<std::size_t> kept_;  ///< contacts that something can move
+  std::vector<Eigen::Matrix<double, D, D - 1>> tangents_;
+  std::vector<std::vector<Side>> sides_;  ///< by body
+};
+
+}  // namespace galet::cd

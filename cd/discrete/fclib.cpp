@@ -1,0 +1,288 @@
+#include "cd/discrete/fclib.hpp"
+
+#include <limits>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <fmt/format.h>
+
+#include "common/core/error.hpp"
+#include "common/io/hdf5_tree.hpp"
+
+namespace galet::cd {
+
+namespace {
+
+using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+/// The datasets of one file, and its name for messages.
+class Reader {
+ public:
+  explicit Reader(const std::string& path)
+      : path_(path), archive_(read_hdf5(path, {"fclib_local", "fclib_global", "fclib_global_rolling", "solution"})) {}
+
+  [[noreturn]] void refuse(const std::string& message) const { throw InputError({Mistake{path_, 0, 0, message}}); }
+
+  bool has(const std::string& name) const { return archive_.reals.contains(name) || archive_.integers.contains(name); }
+  bool has_group(const std::string& group) const {
+    return begins(archive_.reals, group) || begins(archive_.integers, group) || begins(archive_.texts, group);
+  }
+
+  const std::vector<double>& reals(const std::string& name) const {
+    return column(archive_.reals, name, "real numbers");
+  }
+  const std::vector<std::int64_t>& integers(const std::string& name) const {
+    return column(archive_.integers, name, "integers");
+  }
+  const std::vector<double>& reals(const std::string& name, std::size_t count, const std::string& why) const {
+    const auto& values = reals(name);
+    if (values.size() != count)
+      refuse(fmt::format("dataset '{}' has {} values: expected {} ({})", name, values.size(), count, why));
+    return values;
+  }
+  std::int64_t integer(const std::string& name) const {
+    const auto& values = integers(name);
+    if (values.size() != 1) refuse(fmt::format("dataset '{}' has {} values: expected 1", name, values.size()));
+    return values[0];
+  }
+  std::string text(const std::string& name) const {
+    const auto found = archive_.texts.find(name);
+    return found == archive_.texts.end() ? "" : found->second;
+  }
+
+ private:
+  template <class Map>
+  static bool begins(const Map& map, const std::string& group) {
+    const auto first = map.lower_bound(group + "/");
+    return first != map.end() && first->first.starts_with(group + "/");
+  }
+  template <class Map>
+  const typename Map::mapped_type& column(const Map& map, const std::string& name, const char* kind) const {
+    const auto found = map.find(name);
+    if (found != map.end()) return found->second;
+    refuse(fmt::format("dataset '{}' {}: expected {}", name,
+                       has(name) || archive_.texts.contains(name) ? "has another type" : "is missing", kind));
+  }
+
+  std::string path_;
+  Archive archive_;
+};
+
+// ---- Matrices ----
+
+int matrix_size(const Reader& reader, const std::string& name) {
+  const std::int64_t size = reader.integer(name);
+  if (size < 0 || size > std::numeric_limits<int>::max() - 1)
+    reader.refuse(fmt::format("dataset '{}' is {}: expected a size of a matrix", name, size));
+  return static_cast<int>(size);
+}
+
+void need_at_least(const Reader& reader, const std::string& name, std::size_t size, std::size_t needed) {
+  if (size < needed) reader.refuse(fmt::format("dataset '{}' has {} values: expected {}", name, size, needed));
+}
+
+int index_below(const Reader& reader, const std::string& name, std::int64_t index, int bound) {
+  if (index < 0 || index >= bound)
+    reader.refuse(fmt::format("dataset '{}' holds the index {}: expected 0 to {}", name, index, bound - 1));
+  return static_cast<int>(index);
+}
+
+/// `along` rows or columns by their compressed form, each with indices below `across`; take(line, index, value).
+template <class Take>
+void read_compressed(const Reader& reader, const std::string& name, int along, int across, const Take& take) {
+  const auto& begin = reader.integers(name + "/p");
+  const auto& index = reader.integers(name + "/i");
+  const auto& value = reader.reals(name + "/x");
+  need_at_least(reader, name + "/p", begin.size(), static_cast<std::size_t>(along) + 1);
+  if (begin[0] != 0) reader.refuse(fmt::format("dataset '{}/p' begins with {}: expected 0", name, begin[0]));
+  for (int line = 0; line < along; ++line) {
+    if (begin[line + 1] < begin[line])
+      reader.refuse(fmt::format("dataset '{}/p' falls at {}: expected ascending places", name, line + 1));
+    need_at_least(reader, name + "/i", index.size(), static_cast<std::size_t>(begin[line + 1]));
+    need_at_least(reader, name + "/x", value.size(), static_cast<std::size_t>(begin[line + 1]));
+    for (std::int64_t k = begin[line]; k < begin[line + 1]; ++k)
+      take(line, index_below(reader, name + "/i", index[k], across), value[k]);
+  }
+}
+
+Rows read_matrix(const Reader& reader, const std::string& name) {
+  const int rows = matrix_size(reader, name + "/m"), columns = matrix_size(reader, name + "/n");
+  const std::int64_t form = reader.integer(name + "/nz");
+  std::vector<Eigen::Triplet<double, int>> entries;
+  if (form >= 0) {
+    const auto& row = reader.integers(name + "/i");
+    const auto& column = reader.integers(name + "/p");
+    const auto& value = reader.reals(name + "/x");
+    need_at_least(reader, name + "/i", row.size(), static_cast<std::size_t>(form));
+    need_at_least(reader, name + "/p", column.size(), static_cast<std::size_t>(form));
+    need_at_least(reader, name + "/x", value.size(), static_cast<std::size_t>(form));
+    for (std::int64_t k = 0; k < form; ++k)
+      entries.emplace_back(index_below(reader, name + "/i", row[k], rows),
+                           index_below(reader, name + "/p", column[k], columns), value[k]);
+  } else if (form == -1) {
+    read_compressed(reader, name, columns, rows,
+                    [&](int column, int row, double value) { entries.emplace_back(row, column, value); });
+  } else if (form == -2) {
+    read_compressed(reader, name, rows, columns,
+                    [&](int row, int column, double value) { entries.emplace_back(row, column, value); });
+  } else {
+    reader.refuse(fmt::format(
+        "dataset '{}/nz' is {}: expected a number of triplets, -1 (compressed columns) or -2 (compressed rows)", name,
+        form));
+  }
+  Rows matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// ---- Problems ----
+
+int read_block(const Reader& reader, const std::string& form) {
+  const std::int64_t block = reader.integer(form + "/spacedim");
+  if (block != 2 && block != 3 && block != 5)
+    reader.refuse(fmt::format("dataset '{}/spacedim' is {}: expected 2, 3 or 5 (with rolling)", form, block));
+  return static_cast<int>(block);
+}
+
+void read_bounds(const Reader& reader, const std::string& form, int rows, DiscreteProblem& problem) {
+  if (rows % problem.block != 0)
+    reader.refuse(fmt::format("'{}' has {} rows: expected a multiple of spacedim = {}", form, rows, problem.block));
+  const std::size_t contacts = static_cast<std::size_t>(rows / problem.block);
+  problem.mu = reader.reals(form + "/vectors/mu", contacts, "one for each contact");
+  const std::string other = form + "/vectors/mu_r";
+  if (problem.block == 5)
+    problem.mu_r = reader.reals(reader.has(other) ? other : form + "/vectors/mur", contacts, "one for each contact");
+}
+
+void refuse_equalities(const Reader& reader, const std::string& form, std::initializer_list<const char*> matrices) {
+  for (const char* matrix : matrices) {
+    const std::string name = form + "/" + matrix;
+    if (reader.has_group(name) && reader.integer(name + "/n") > 0)
+      reader.refuse(fmt::format(
+          "the problem has equality constraints ('{}'): only problems of contacts alone can be solved", name));
+  }
+}
+
+void take_matrix(const Rows& w, DiscreteProblem& problem) {
+  problem.start.assign(w.outerIndexPtr(), w.outerIndexPtr() + w.rows() + 1);
+  problem.column.assign(w.innerIndexPtr(), w.innerIndexPtr() + w.nonZeros());
+  problem.value.assign(w.valuePtr(), w.valuePtr() + w.nonZeros());
+}
+
+void read_local(const Reader& reader, DiscreteProblem& problem) {
+  const std::string form = "fclib_local";
+  refuse_equalities(reader, form, {"V", "R"});
+  const Rows w = read_matrix(reader, form + "/W");
+  if (w.rows() != w.cols())
+    reader.refuse(
+        fmt::format("matrix '{}/W' has {} rows and {} columns: expected a square one", form, w.rows(), w.cols()));
+  const int rows = static_cast<int>(w.rows());
+  read_bounds(reader, form, rows, problem);
+  problem.q = reader.reals(form + "/vectors/q", static_cast<std::size_t>(rows), "one for each row of W");
+  take_matrix(w, problem);
+}
+
+/// M^-1 applied to the columns of H and to f. M is symmetric positive definite but for gyroscopic terms.
+template <class Take>
+void solve_mass(const Reader& reader, const std::string& name, const Columns& mass, const Take& take) {
+  const Columns transposed = mass.transpose();
+  const double symmetric_to_rounding = 1e-14;
+  if ((mass - transposed).norm() <= symmetric_to_rounding * mass.norm()) {
+    const Eigen::SimplicialLDLT<Columns> factor(mass);
+    if (factor.info() != Eigen::Success || (mass.rows() > 0 && !(factor.vectorD().minCoeff() > 0)))
+      reader.refuse(fmt::format("matrix '{}' is not positive definite: expected masses and inertias", name));
+    take(factor);
+  } else {
+    Eigen::SparseLU<Columns> factor;
+    factor.compute(mass);
+    if (factor.info() != Eigen::Success) reader.refuse(fmt::format("matrix '{}' is singular", name));
+    take(factor);
+  }
+}
+
+void read_global(const Reader& reader, const std::string& form, DiscreteProblem& problem) {
+  refuse_equalities(reader, form, {"G"});
+  const Columns mass = read_matrix(reader, form + "/M"), h = read_matrix(reader, form + "/H");
+  if (mass.rows() != mass.cols() || mass.rows() != h.rows())
+    reader.refuse(fmt::format("'{0}/M' is {1} x {2} and '{0}/H' {3} x {4}: expected a square M, with as many rows as H",
+                              form, mass.rows(), mass.cols(), h.rows(), h.cols()));
+  read_bounds(reader, form, static_cast<int>(h.cols()), problem);
+  const auto& w = reader.reals(form + "/vectors/w", static_cast<std::size_t>(h.cols()), "one for each column of H");
+  const auto& f = reader.reals(form + "/vectors/f", static_cast<std::size_t>(h.rows()), "one for each row of M");
+  for (const double value : f)
+    if (!std::isfinite(value))
+      reader.refuse(fmt::format("dataset '{}/vectors/f' holds a value that is not finite", form));
+  solve_mass(reader, form + "/M", mass, [&](const auto& factor) {
+    const Columns answer = factor.solve(h);
+    take_matrix(Rows(h.transpose() * answer), problem);
+    const Eigen::VectorXd v = factor.solve(Eigen::Map<const Eigen::VectorXd>(f.data(), h.rows()));
+    const Eigen::VectorXd q = h.transpose() * v + Eigen::Map<const Eigen::VectorXd>(w.data(), h.cols());
+    problem.q.assign(q.data(), q.data() + q.size());
+  });
+}
+
+void read_solution(const Reader& reader, FclibContent& content) {
+  if (!reader.has("solution/r")) return;
+  const std::size_t rows = content.problem.q.size();
+  content.r = reader.reals("solution/r", rows, "one for each row of W");
+  content.u = reader.reals("solution/u", rows, "one for each row of W");
+}
+
+}  // namespace
+
+FclibContent read_fclib(const std::string& path) {
+  const Reader reader(path);
+  FclibContent content;
+  DiscreteProblem& problem = content.problem;
+  std::string form;
+  for (const char* known : {"fclib_local", "fclib_global", "fclib_global_rolling"})
+    if (form.empty() && reader.has_group(known)) form = known;
+  if (form.empty())
+    reader.refuse(
+        "this is not an FCLIB file: expected a group 'fclib_local', 'fclib_global' or 'fclib_global_rolling'");
+  problem.block = read_block(reader, form);
+  if (form == "fclib_local")
+    read_local(reader, problem);
+  else
+    read_global(reader, form, problem);
+  problem.title = reader.text(form + "/info/title");
+  problem.description = reader.text(form + "/info/description");
+  read_solution(reader, content);
+  std::vector<Mistake> mistakes;
+  for (const std::string& mistake : mistakes_of(problem)) mistakes.push_back({path, 0, 0, mistake});
+  if (!mistakes.empty()) throw InputError(mistakes);
+  return content;
+}
+
+void write_fclib(const std::string& path, const FclibContent& content) {
+  const DiscreteProblem& problem = content.problem;
+  const std::vector<std::string> mistakes = mistakes_of(problem);
+  require(mistakes.empty(), mistakes.empty() ? "" : "a problem with mistakes is not written: " + mistakes.front());
+  require(content.r.size() == content.u.size() && (content.r.empty() || content.r.size() == problem.q.size()),
+          "a solution has as many numbers as the problem has rows");
+  require(problem.value.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
+          "an FCLIB file can't hold that many entries of W");
+  const std::vector<int> start(problem.start.begin(), problem.start.end());
+  const int rows = problem.rows(), entries = static_cast<int>(problem.value.size());
+  const Columns w =
+      Eigen::Map<const Rows>(rows, rows, entries, start.data(), problem.column.data(), problem.value.data());
+  Archive archive;
+  const auto integer = [&](const std::string& name, int value) { archive.integers["fclib_local/" + name] = {value}; };
+  integer("spacedim", problem.block);
+  integer("W/m", rows), integer("W/n", rows), integer("W/nz", -1), integer("W/nzmax", entries);
+  archive.integers["fclib_local/W/p"].assign(w.outerIndexPtr(), w.outerIndexPtr() + rows + 1);
+  archive.integers["fclib_local/W/i"].assign(w.innerIndexPtr(), w.innerIndexPtr() + entries);
+  archive.reals["fclib_local/W/x"].assign(w.valuePtr(), w.valuePtr() + entries);
+  archive.reals["fclib_local/vectors/q"] = problem.q;
+  archive.reals["fclib_local/vectors/mu"] = problem.mu;
+  if (problem.block == 5) archive.reals["fclib_local/vectors/mur"] = problem.mu_r;
+  archive.texts["fclib_local/info/title"] = problem.title;
+  archive.texts["fclib_local/info/description"] = problem.description;
+  archive.texts["fclib_local/info/math_info"] = "";
+  if (!content.r.empty()) archive.reals["solution/u"] = content.u, archive.reals["solution/r"] = content.r;
+  write_hdf5(path, archive);
+}
+
+}  // namespace galet::cd

@@ -1,0 +1,37 @@
+// FCLIB files (HDF5): discrete contact problems as codes exchange them.
+//
+//   fclib_local   W, vectors q, mu [, mur]        u = W r + q
+//   fclib_global  M, H, vectors f, w, mu [, mur]  M v = H r + f,  u = H^T v + w
+//                 read as W = H^T M^-1 H, q = H^T M^-1 f + w (sparse factorisation of M)
+//   spacedim: numbers per contact, 2, 3 or 5 (two of them rolling, bounded by mur); normal component first
+//   info: title, description, math_info (all optional)
+//   solution: u, r
+//
+// A matrix has m rows, n columns and nzmax places; nz >= 0: that many triplets (row i, column p, value x, equal places
+// are summed); nz = -1: compressed columns; nz = -2: compressed rows (p: where each begins, i: indices, x: values).
+// fclib_global_rolling is read as fclib_global, mu_r as mur. Equality constraints (G of a global problem, V and R of a
+// local one) are refused: a DiscreteProblem has contacts only.
+// Source: Acary, Bremond and Huber 2018 (FCLIB).
+#pragma once
+
+#include <string>
+
+#include "cd/discrete/problem.hpp"
+
+namespace galet::cd {
+
+/// A problem and, where the file has one, its solution (else empty).
+struct FclibContent {
+  DiscreteProblem problem;
+  std::vector<double> u, r;
+};
+
+/// Throws InputError with the file, the dataset and what was expected of it. What it returns has no mistakes_of.
+/// Cost: local O(entries); global that of the factorisation of M and of a solution for each column of H.
+FclibContent read_fclib(const std::string& path);
+
+/// Writes a local problem, W by compressed columns, and u and r as its solution unless they are empty. Reading it
+/// gives the same bits.
+void write_fclib(const std::string& path, const FclibContent& content);
+
+}  // namespace galet::cd

@@ -1,0 +1,48 @@
+#include "src/commands/dump_problem.hpp"
+
+#include <fmt/format.h>
+
+#include "cd/discrete/fclib.hpp"
+#include "cd/discrete/step_problem.hpp"
+#include "common/core/error.hpp"
+
+namespace galet::cli {
+
+template <int D>
+int dump_problem(Simulation<D>& simulation, const DumpRequest& request, const RunControl& control) {
+  if (dynamic_cast<cd::ProblemSource*>(&simulation.engine()) == nullptr)
+    throw InputError(
+        fmt::format("--dump-problem needs engine cd: {} solves no contact problems", simulation.engine().name()));
+  RunResult stage;
+  if (!simulation.prepare(control, stage)) {
+    fmt::print(stderr, "galet: {}\n", stage.failure.empty() ? "stopped" : stage.failure);
+    return 1;
+  }
+  Engine<D>& engine = simulation.engine();
+  const long before = request.step - 1 - engine.steps();
+  if (before < 0)
+    throw InputError(fmt::format("--dump-problem {}: the run is already at step {}, the next one is {}", request.step,
+                                 engine.steps(), engine.steps() + 1));
+  for (long step = 0; step < before; ++step) {
+    engine.advance(1);
+    if (control.stop && control.stop()) {
+      fmt::print(stderr, "galet: stopped after step {}\n", engine.steps());
+      return 1;
+    }
+  }
+  cd::StepProblem step = dynamic_cast<cd::ProblemSource&>(engine).step_with_problem();
+  step.problem.title = request.title;
+  step.problem.description = fmt::format(
+      "contact problem of step {} (time {:.9g}) of galet's engine cd, step length {:.9g}; q: velocities, r: impulses, "
+      "in the units of the scene; solution: the engine's impulses, right to its tolerance {:g}",
+      request.step, engine.time(), engine.dt(), simulation.scene().cd.tolerance);
+  cd::write_fclib(request.file, {step.problem, step.u, step.r});
+  fmt::print("{}: {} contacts of {} numbers, {} entries of W\n", request.file, step.problem.contacts(),
+             step.problem.block, step.problem.value.size());
+  return 0;
+}
+
+template int dump_problem<2>(Simulation<2>&, const DumpRequest&, const RunControl&);
+template int dump_problem<3>(Simulation<3>&, const DumpRequest&, const RunControl&);
+
+}  // namespace galet::cli
