@@ -32,8 +32,8 @@ struct Cone {
     Vector r;
     const double norm = sliding(x).norm();
     if constexpr (!rolling) {
+      if (mu * norm <= -x[0]) return Vector::Zero();  // first: without friction the next holds for x_N < 0 too
       if (norm <= mu * x[0]) return x;
-      if (mu * norm <= -x[0]) return Vector::Zero();
       r[0] = (x[0] + mu * norm) / (1 + mu * mu);
       r.template segment<tangential>(1) = (mu * r[0] / norm) * sliding(x);
     } else {

@@ -65,12 +65,12 @@ ScaledProblem<B>::ScaledProblem(const DiscreteProblem& problem) {
   for (int c = 0; c < contacts; ++c) {
     const auto columns = blocks.column.begin();
     const auto at = std::lower_bound(columns + blocks.first[c], columns + blocks.first[c + 1], c) - columns;
-    const Vector diagonal = blocks.value[at].diagonal();
-    const double translation = scale_of(diagonal.template head<D>(), 1);
+    const Vector weights = blocks.value[at].diagonal();
+    const double translation = scale_of(weights.template head<D>(), 1);
     scale[c].setConstant(translation);
     cone[c].mu = problem.mu[c];
     if constexpr (B == 5) {
-      const double rotation = scale_of(diagonal.template tail<2>(), translation);
+      const double rotation = scale_of(weights.template tail<2>(), translation);
       scale[c].template tail<2>().setConstant(rotation);
       cone[c].mu_r = problem.mu_r[c] * translation / rotation;
     }

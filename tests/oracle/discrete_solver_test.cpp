@@ -176,6 +176,39 @@ TEST(DiscreteError, IsTheDistanceOfTheNaturalMap) {
   EXPECT_NEAR(solve(unit_problem({-1, 2, 0}, 0.5), nothing).error, std::hypot(0.1, 0.2) / std::sqrt(5.0), 1e-15);
 }
 
+TEST(DiscreteSolver, WithoutFrictionOnlyNormalImpulsesCount) {
+  for (const std::string_view name : discrete_solvers())
+    for (const double approach : {-1.0, 1.0}) {
+      DiscreteOptions options;
+      options.solver = name;
+      options.error = 1e-7;  // interior points floor near 1e-8
+      const DiscreteSolution solution = solve(unit_problem({approach, 0}, 0), options);
+      EXPECT_TRUE(solution.converged) << name;
+      EXPECT_NEAR(solution.r[0], std::max(0.0, -approach), 1e-6) << name;
+    }
+}
+
+TEST(DiscreteCone, ProjectsOnItsNearestPoint) {
+  EXPECT_EQ(Cone<2>({0, 0}).project({-1, 0}), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(Cone<2>({0, 0}).project({1, 0}), Eigen::Vector2d(1, 0));
+  // Against points of the cone: none is nearer.
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 2000; ++k) {
+    const Cone<5> cone{std::abs(normal(random)), std::abs(normal(random))};
+    Cone<5>::Vector x, other;
+    for (int a = 0; a < 5; ++a) x[a] = normal(random), other[a] = normal(random);
+    other[0] = std::abs(other[0]);
+    other.segment<2>(1) *= kept(other.segment<2>(1).norm(), cone.mu * other[0]);
+    other.tail<2>() *= kept(other.tail<2>().norm(), cone.mu_r * other[0]);
+    const Cone<5>::Vector nearest = cone.project(x);
+    // Obtuse angle to every point of a convex set, and on the cone itself; up to rounding.
+    EXPECT_LE((x - nearest).dot(other - nearest), 1e-13);
+    EXPECT_LE(nearest.segment<2>(1).norm(), cone.mu * nearest[0] + 1e-14);
+    EXPECT_LE(nearest.tail<2>().norm(), cone.mu_r * nearest[0] + 1e-14);
+  }
+}
+
 TEST(DiscreteError, DependsOnNoUnit) {
   std::mt19937 random(4);
   DiscreteProblem problem = random_problem(5, 4, 30, 0.4, random);
