@@ -5,6 +5,7 @@
 #   isotropic_3d     both engines on scenes/isotropic_3d.toml
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
 #   layouts          what each layout costs (Google Benchmark)
+#   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains; not in the default
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
@@ -31,6 +32,7 @@ for name in "${names[@]}"; do
         "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
       done ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
+    md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
     hertz_compression)
       for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
