@@ -5,12 +5,13 @@
 #   isotropic_3d     both engines on scenes/isotropic_3d.toml
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
 #   layouts          what each layout costs (Google Benchmark)
-#   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains; not in the default
+#   md_scaling       speed, stages and memory of md from 1e3 to 64000 grains (half a minute; without --quick to 1e6)
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
+#   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
 set -euo pipefail
@@ -20,7 +21,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
@@ -32,7 +33,7 @@ for name in "${names[@]}"; do
         "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
       done ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
-    md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
+    md_scaling) "$bin/benchmarks/md_scaling" --quick | tee "$out/md_scaling.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
     hertz_compression)
       for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
@@ -41,6 +42,13 @@ for name in "${names[@]}"; do
     md_accuracy)
       speeds=benchmarks/results/lammps_speed/cases.csv
       if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
+    solver_profile)
+      if [ -z "${GALET_FCLIB:-}" ]; then
+        echo "skipped: GALET_FCLIB names no folder of FCLIB problems"
+        rmdir --ignore-fail-on-non-empty "$out"
+        continue
+      fi
+      "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 2 ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac
   # Paths of this run say nothing to a reader.

@@ -112,3 +112,29 @@ echo "## Contact solver"
 printf '\nSweeps from a cold start on a dense packing under pressure, plain and with momentum.\n\n'
 csv_table "$results/solver_sweeps/solver_sweeps.csv"
 measured_on solver_sweeps
+cat <<'END'
+## Cost of md against the number of grains
+
+`benchmarks/run.sh md_scaling`: packings tiled from one of 1000 grains, at rest, in shear, and at rest with grains numbered at random.
+Times in ns per grain and step, listed pair, and touching pair, then by stage; memory in bytes per grain and per listed pair that the arrays
+hold; `moved`: bytes that a grain-step moves by the layout; `floor`: the ns that these take at the measured `stream` rate (GB/s).
+
+END
+csv_table "$results/md_scaling/md_scaling.csv"
+measured_on md_scaling
+cat <<'END'
+## Contact solvers on problems of other codes
+
+`GALET_FCLIB=FOLDER benchmarks/run.sh solver_profile`: processor seconds until each error was reached, automatic choice of solver; empty: not
+reached in the time given (the two large piles and the rocks need more than that or are not solved to 1e-8 at all). The figure shows every
+solver: the share of the problems that it brought to 1e-6 within a factor of the fastest one's time.
+
+END
+{ head -1 "$results/solver_profile/times.csv"; grep ',auto,' "$results/solver_profile/times.csv"; } >"${TMPDIR:-/tmp}/galet_auto_$$.csv"
+csv_table "${TMPDIR:-/tmp}/galet_auto_$$.csv"
+rm -f "${TMPDIR:-/tmp}/galet_auto_$$.csv"
+cat <<'END'
+![performance profile](../benchmarks/results/solver_profile/profile_errS.svg)
+
+END
+measured_on solver_profile
