@@ -44,6 +44,47 @@ struct Cone {
     }
     return r;
   }
+
+  using Matrix = Eigen::Matrix<double, B, B>;
+
+  /// A generalised derivative of project() at x.
+  Matrix derivative(const Vector& x) const {
+    const Vector r = project(x);
+    if (r[0] <= 0) return Matrix::Zero();
+    Matrix result = Matrix::Zero();
+    Vector edge = Vector::Unit(0);  // how r changes with its normal part
+    double weight = 1;
+    const auto add_part = [&](int at, auto part, double bound) {
+      constexpr int count = decltype(part)::RowsAtCompileTime;
+      const double norm = part.norm();
+      auto square = result.template block<count, count>(at, at);
+      if (norm <= bound * r[0]) {
+        square.diagonal().array() += 1;
+        return;
+      }
+      const Eigen::Matrix<double, count, 1> direction = part / norm;
+      edge.template segment<count>(at) = bound * direction;
+      weight += bound * bound;
+      square.diagonal().array() += bound * r[0] / norm;
+      square -= bound * r[0] / norm * direction * direction.transpose();
+    };
+    add_part(1, Eigen::Matrix<double, tangential, 1>(sliding(x)), mu);
+    if constexpr (rolling) add_part(3, Eigen::Vector2d(turning(x)), mu_r);
+    result += edge * edge.transpose() / weight;
+    return result;
+  }
+
+  /// The derivative of corrected() at u.
+  Vector corrected_slope(const Vector& u) const {
+    Vector slope = Vector::Zero();
+    const double norm = sliding(u).norm();
+    if (norm > 0) slope.template segment<tangential>(1) = mu / norm * sliding(u);
+    if constexpr (rolling) {
+      const double turned = turning(u).norm();
+      if (turned > 0) slope.template tail<2>() = mu_r / turned * turning(u);
+    }
+    return slope;
+  }
 };
 
 }  // namespace galet::cd

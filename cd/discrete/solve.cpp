@@ -10,6 +10,7 @@
 
 #include "cd/discrete/interior_point.hpp"
 #include "cd/discrete/iterations.hpp"
+#include "cd/discrete/proximal_newton.hpp"
 #include "cd/discrete/sweeps.hpp"
 #include "common/core/error.hpp"
 
@@ -44,6 +45,11 @@ class Solvers {
     return InteriorPoint<B>(problem_).solve(budget, monitor_);
   }
 
+  bool newton(long budget) {
+    monitor_.begin("newton");
+    return ProximalNewton<B>(problem_, monitor_.best()).solve(budget, monitor_);
+  }
+
   /// Cheap methods first; each starts from the best iterate, and rounds grow.
   bool automatic() {
     const bool bulk = problem_.diagonal && problem_.size() > 2000;
@@ -54,7 +60,8 @@ class Solvers {
         if (momentum(sweeps(300))) return true;
       if (projected(sweeps(600))) return true;
       if (frozen(sweeps(2000))) return true;
-      if (B * problem_.size() <= most_factored_rows && interior_point(60)) return true;
+      if (B * problem_.size() > most_factored_rows) continue;
+      if (newton(40) || interior_point(60)) return true;
     }
   }
 
@@ -102,6 +109,7 @@ constexpr Named<B> methods[] = {
     {"nncg", [](Solvers<B>& solvers) { return solvers.conjugate(endless); }},
     {"pgs", [](Solvers<B>& solvers) { return solvers.projected(endless); }},
     {"pgs-frozen", [](Solvers<B>& solvers) { return solvers.frozen(endless); }},
+    {"newton", [](Solvers<B>& solvers) { return solvers.newton(400); }},
     {"ipm", [](Solvers<B>& solvers) { return solvers.interior_point(200); }},
 };
 
