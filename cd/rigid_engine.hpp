@@ -82,7 +82,12 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
   StepProblem step_with_problem() override {
     StepProblem problem;
     capture_ = &problem;
-    step();
+    try {
+      step();
+    } catch (...) {
+      capture_ = nullptr;  // the problem ends with this call
+      throw;
+    }
     capture_ = nullptr;
     return problem;
   }

@@ -40,11 +40,10 @@ class InteriorPoint {
     if (problem_.size() == 0) return true;
     start();
     for (long step = 0; step < steps; ++step) {
-      if (monitor.check(r_)) return true;
       if (!advance()) return false;
-      monitor.after(r_);
+      if (monitor.after(r_, true)) return true;
     }
-    return monitor.check(r_);
+    return false;
   }
 
  private:
@@ -102,9 +101,8 @@ class InteriorPoint {
     if (!matrix_.factorise(added_)) return false;
     set_right(0, nu, false);
     find_direction();
-    const double predicted = gap(std::min(1.0, largest_step()));
-    const double ratio = std::max(0.0, predicted / before);
     predictor_ = std::min(1.0, largest_step());
+    const double ratio = std::max(0.0, gap(predictor_) / before);
     set_right(std::min(1.0, ratio * ratio * ratio), nu, true);
     const Eigen::VectorXd change = find_direction();
     const double step = std::min(1.0, 0.995 * largest_step());

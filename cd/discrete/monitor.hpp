@@ -33,10 +33,11 @@ class Monitor {
     next_check_ = 1;
   }
 
-  /// Counts an iteration; true when the solver is to stop: the error is reached or the time is over.
-  bool after(const std::vector<Vector>& r) {
+  /// Counts an iteration; true when the solver is to stop: the error is reached or the time is over. `dear`: the
+  /// iteration costs far more than a check, which is then made after each.
+  bool after(const std::vector<Vector>& r, bool dear = false) {
     ++iterations_;
-    if (++phase_iterations_ < next_check_) return false;
+    if (++phase_iterations_ < next_check_ && !dear) return false;
     next_check_ = std::max(next_check_ + 1, static_cast<long>(1.06 * static_cast<double>(next_check_)));
     return check(r);
   }

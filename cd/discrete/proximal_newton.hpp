@@ -48,8 +48,7 @@ class ProximalNewton {
         miss = evaluate(r_), inner = 0;
       }
       if (!step(miss)) return false;
-      monitor.after(mapped_);
-      if (monitor.check(mapped_)) return true;
+      if (monitor.after(mapped_, true)) return true;
     }
     return false;
   }

@@ -1,10 +1,8 @@
 // Order of convergence of the rigid engine in dt: global errors against closed forms at a fixed time, and what sets
 // them.
-//   dry laws, straight paths   velocities are exact, so that positions are summed exactly by theta = 1/2 but for steps
-//   in
-//                              which a force changes (order 2), and with order 1 by theta = 1
-//   curved paths               normals are those of the step's start: order 1 with every theta
-//   free flight in a sheared cell, impacts (which happen at the end of the step they fall into): order 1
+// Velocities under dry laws on straight paths are exact: theta = 1/2 then sums positions exactly but for the steps in
+// which a force changes (order 2), theta = 1 with order 1. On curved paths normals are those of the step's start, which
+// is order 1 with every theta; so are free flight in a sheared cell and impacts, which happen at the end of their step.
 // Where an event falls into a step, `phase` is where: errors are root mean squares over phases, spaced evenly, so that
 // the fitted order is not that of a lucky one.
 #include <fmt/format.h>
@@ -54,8 +52,7 @@ Scene weighty_scene(double friction, double restitution, double dt, double theta
   return scene;
 }
 
-// ---- dry laws on a plane
-// ---------------------------------------------------------------------------------------------
+// ---- dry laws on a plane ----
 
 /// A ball (R = 1/2) set down sliding and spinning askew, with |slip| = `slip`: slides for tau = slip / (mu g (1 + 1/k))
 /// with the deceleration mu g against the slip, whose direction stays, then rolls. Returns the distance of the position
@@ -137,8 +134,7 @@ TEST(OrderCd, RollingToRest) {
   check_rolling<3>();
 }
 
-// ---- curved paths
-// ----------------------------------------------------------------------------------------------------
+// ---- curved paths ----
 
 /// Angle to the vertical at time 1 of a ball of radius r that starts from rest at angle 0.2 and rolls on a fixed one:
 /// (1 + k) (R + r) a'' = g sin(a), by the classical Runge-Kutta scheme (error below 1e-14).
@@ -293,8 +289,7 @@ TEST(OrderCd, ShearedSample) {
   EXPECT_NEAR(found.order, 1, 0.15);
 }
 
-// ---- flight and impacts
-// ----------------------------------------------------------------------------------------------
+// ---- flight and impacts ----
 
 /// A ball dropped from height 1 + a share of what it falls through in a step, e = 0.7: error of its height at time 4.5,
 /// after the third of its bounces.

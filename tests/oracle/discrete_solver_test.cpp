@@ -104,9 +104,8 @@ TEST(DiscreteSolver, AnswersObeyCoulombsLaw) {
         // Forces of singular problems are known to errS times the condition of what W leaves: 1e4 of these.
         expect_coulomb(problem, solution.r, 1e-6);
       }
-  // All but a few: large mu with hyperstatic contacts is where no method is certain in a short time, and builds with
-  // sanitizers get less done in it.
-  EXPECT_GE(solved, asked * 90 / 100);
+  // All but a few (232 of 240 when written): large mu with hyperstatic contacts is where no method is certain in 0.2 s.
+  EXPECT_GE(solved, asked * 95 / 100);
 }
 
 TEST(DiscreteSolver, EveryMethodReachesTheSameMotion) {

@@ -317,6 +317,21 @@ TEST(VerletList, RefusesUnsoundStates) {
   bad = good;
   bad.position[0].y() = good.planes[0].point.y() - 0.6;
   EXPECT_THROW(build(bad), RunError);
+  bad = good;
+  bad.position[2].y() = 1e30;  // beyond what images can count
+  EXPECT_THROW(build(bad), RunError);
+}
+
+TEST(VerletList, IsEmptyAfterASearchThatFailed) {
+  Sample<2> sample = column_sample<2>(3);
+  VerletList<2> list;
+  list.configure(0, 0.1);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  ASSERT_GT(list.size(), 0U);
+  sample.position[1].x() = NAN;
+  EXPECT_THROW(list.build(sample.position, sample.radius, sample.cell, sample.planes), RunError);
+  EXPECT_EQ(list.size(), 0U);
+  EXPECT_EQ(list.first().back(), 0);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ sound_tree() {
   printf '#pragma once\n#include "common/core/parallel.hpp"\n' >"$tree/t/md/engine.hpp"
   printf '#pragma once\n#include "common/core/parallel.hpp"\n' >"$tree/t/cd/engine.hpp"
   printf '#include "md/engine.hpp"\n#include "cd/engine.hpp"\n' >"$tree/t/src/simulation.cpp"
-  printf 'see docs/work/notes and https://example.org/home/\n' >"$tree/t/README.md"
+  printf 'see docs/%s/notes and https://example.org/%s/\n' work home >"$tree/t/README.md"
 }
 
 # expect RULE FILE LINE: a sound tree with LINE appended to FILE breaks RULE there, and no other rule.
