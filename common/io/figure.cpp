@@ -25,8 +25,8 @@ namespace galet {
 namespace {
 
 /// Colours that differ for every kind of sight (Okabe and Ito), with a shape of its own for each.
-constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
-constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 6};
+constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#888888"};
+constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 6, 4};
 
 /// A text between single quotes for gnuplot. Control characters would end the line of the script.
 std::string quote(const std::string& text) {
