@@ -46,7 +46,7 @@ struct ColdProblem {
     start.gradient = start.hub_rate[0] * mode.direction;
     cd::Assembly<Y> assembly;
     assembly.measure(bodies, list);
-    assembly.activate(bodies, list, start.velocity, dt, 1e-3);
+    assembly.activate(list, start.velocity, dt, 1e-3);
     assembly.fill(bodies, list, derived.laws, {dt}, start, problem);
     start.reaction.assign(problem.size(), cd::Reaction<Y>::Zero());
   }

@@ -1,10 +1,14 @@
 // Positions at the end of a step, and their correction for drift.
 //
 //   x += dt (v + L x),  box += dt L box,  planes += dt v            with v = theta v+ + (1 - theta) v-
+//   rigid bodies: c += dt v; the orientation turns by dt w, or freely with J (geometry/rigid_body.hpp), J = theta J+ +
+//   (1 - theta) J- where J- and J+ belong to the orientation at the start of the step. Gyroscopic terms are all in that
+//   motion: J is kept, and w at the step's end is I^-1 J there.
 //
 // A branch vector moves by exactly dt (v_j - v_i + L b), and the distance of two points is a convex function of it, so
 // that a gap ends at or above g + dt u_N: penetration comes from the solver's tolerance, from restitution of separating
-// pairs, and from the start only. Where it passes the scene's tolerance, positions are projected back (frictionless,
+// pairs, from the turning of bodies (a chord in place of an arc: w^2 r dt^2 / 2 in a step), and from the start only.
+// Where it passes the scene's tolerance, positions are projected back (frictionless,
 // mass-weighted, the stress-driven cell and free planes taking part) without touching any velocity: no kinetic energy
 // is made.
 #pragma once
@@ -18,17 +22,28 @@
 
 namespace galet::cd {
 
+/// `motion`: the velocities with which bodies are moved.
 template <Layout Y>
-void advance_positions(Bodies<Y>& bodies, const Column<Vec<Y.dim>>& velocity, const Mat<Y.dim>& gradient, double dt) {
+void advance_positions(Bodies<Y>& bodies, const Iterate<Y>& motion, double dt) {
   constexpr int D = Y.dim;
+  const Column<Vec<D>>& velocity = motion.velocity;
+  const Mat<D>& gradient = motion.gradient;
   const bool still = gradient.isZero(0);
   for (std::size_t b = 0; b < bodies.position.size(); ++b) {
     const Vec<D> affine = still ? Vec<D>(Vec<D>::Zero()) : Vec<D>(gradient * bodies.position[b]);
-    bodies.position[b] += dt * (velocity[body_of(bodies, static_cast<int>(b))] + affine);
+    bodies.position[b] += dt * (velocity[b] + affine);
   }
   for (std::size_t p = 0; p < bodies.planes.size(); ++p)
     bodies.planes[p].point += dt * velocity[bodies.position.size() + p];
   if (!still) bodies.cell.box += dt * (gradient * bodies.cell.box);
+  const std::size_t before = bodies.position.size() + bodies.planes.size();
+  for (std::size_t b = 0; b < bodies.rigid.body.size(); ++b) {
+    RigidBody<D>& body = bodies.rigid.body[b];
+    Spin<D> spin = zero_spin<D>();
+    if constexpr (Y.friction) spin = motion.spin[before + b];
+    drift(body, velocity[before + b], spin, angular_momentum<D>(body, spin), dt);
+  }
+  if (!bodies.rigid.none()) bodies.follow();
 }
 
 /// What a correction did: the overlap that is left, and whether positions were moved.
@@ -78,7 +93,7 @@ class DriftCorrection {
     displacement_.gradient.setZero();
     refill(displacement_.reaction, problem.size(), Reaction<Y>::Zero());
     solver.solve(problem, {1e-3, 1000}, displacement_);
-    advance_positions(bodies, displacement_.velocity, displacement_.gradient, 1);
+    advance_positions(bodies, displacement_, 1);
   }
 
   Iterate<Y> displacement_;

@@ -35,18 +35,26 @@ int law_index(const Bodies<Y>& bodies, const PairColumns<Y.dim>& pairs, std::siz
   return bodies.material[i] * materials + other;
 }
 
-/// The body of the contact problem that member `index` of a pair belongs to: itself, or its wall.
+/// The body of the contact problem that member `index` of a pair belongs to: itself, or its rigid body.
 template <Layout Y>
 int body_of(const Bodies<Y>& bodies, int index) {
-  if (bodies.wall_of.empty() || index >= bodies.grains() || bodies.wall_of[index] < 0) return index;
-  return bodies.grains() + static_cast<int>(bodies.planes.size()) + bodies.wall_of[index];
+  if (index >= bodies.grains() || bodies.rigid.free(index)) return index;
+  return bodies.grains() + static_cast<int>(bodies.planes.size()) + bodies.rigid.of[index];
 }
 
-/// Whether nothing can change a pair's distance: grains of one wall, of two that forces don't move.
+/// Velocity of a grain's centre, or of a plane.
 template <Layout Y>
-bool held_apart(const Bodies<Y>& bodies, int i, int j) {
-  if (bodies.wall_of.empty()) return false;
-  return i != j && body_of(bodies, i) == body_of(bodies, j);
+Vec<Y.dim> velocity_of(const Bodies<Y>& bodies, const Iterate<Y>& iterate, int index) {
+  const int body = body_of(bodies, index);
+  if constexpr (Y.friction)
+    if (body != index) return iterate.velocity[body] + cross(iterate.spin[body], bodies.arm[index]);
+  return iterate.velocity[body];
+}
+
+/// Whether member `index` of a pair is part of a rigid body that turns.
+template <Layout Y>
+bool on_turning_body(const Bodies<Y>& bodies, int index) {
+  return index < bodies.grains() && !bodies.rigid.free(index) && bodies.rigid.body[bodies.rigid.of[index]].turns;
 }
 
 /// How a step goes forward in time: velocities count theta at its end and 1 - theta at its start.
@@ -75,11 +83,9 @@ class Assembly {
   }
 
   /// Marks the pairs that could close within the step: gap below `margin` plus twice what the free velocities cover.
-  void activate(const Bodies<Y>& bodies, const VerletList<D>& list, const Column<Vec<D>>& free_velocity, double dt,
-                double margin) {
+  void activate(const VerletList<D>& list, const Column<Vec<D>>& free_velocity, double dt, double margin) {
     const PairColumns<D>& pairs = list.pairs();
     for (std::size_t row = 0; row < list.size(); ++row) {
-      if (held_apart(bodies, pairs.i[row], pairs.j[row])) continue;
       const double approach = free_velocity[pairs.i[row]].norm() + free_velocity[pairs.j[row]].norm();
       if (frames_[row].gap <= margin + 2 * dt * (approach + std::abs(opening_[row]))) active_[row] = 1;
     }
@@ -91,9 +97,9 @@ class Assembly {
     int missed = 0;
     const PairColumns<D>& pairs = list.pairs();
     for (std::size_t row = 0; row < list.size(); ++row) {
-      if (active_[row] || held_apart(bodies, pairs.i[row], pairs.j[row])) continue;
+      if (active_[row]) continue;
       const ContactFrame<D>& frame = frames_[row];
-      Vec<D> u = iterate.velocity[body_of(bodies, pairs.j[row])] - iterate.velocity[body_of(bodies, pairs.i[row])];
+      Vec<D> u = velocity_of(bodies, iterate, pairs.j[row]) - velocity_of(bodies, iterate, pairs.i[row]);
       if (pairs.j[row] < bodies.grains()) u += iterate.gradient * frame.branch;
       const double opening = rule.theta * frame.normal.dot(u) + (1 - rule.theta) * opening_[row];
       if (frame.gap + rule.dt * opening < 0) active_[row] = 1, ++missed;
@@ -106,22 +112,10 @@ class Assembly {
   void fill(const Bodies<Y>& bodies, const VerletList<D>& list, const LawTable& laws, const StepRule& rule,
             const Iterate<Y>& start, Problem<Y>& problem) {
     const PairColumns<D>& pairs = list.pairs();
-    make_room(list.size(), problem);
-    rows_.clear(), body_i_.clear(), body_j_.clear();
-    for (std::size_t row = 0; row < list.size(); ++row) {
-      if (!active_[row]) continue;
-      rows_.push_back(static_cast<int>(row));
-      body_i_.push_back(colouring_index(problem, body_of(bodies, pairs.i[row])));
-      body_j_.push_back(colouring_index(problem, body_of(bodies, pairs.j[row])));
-    }
-    colouring_.colour(body_i_, body_j_, bodies.grains() + static_cast<int>(problem.mobility.size()), rows_.capacity());
-    problem.resize(rows_.size());
-    problem.group = colouring_.start;
-    problem.sequential_tail = colouring_.overflow;
-    row_of_.resize(rows_.size());
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const int row = rows_[colouring_.order[k]];
-      row_of_[k] = row;
+    make_room(list.size(), bodies.rigid.any_turning, problem);
+    order_contacts(bodies, list, problem);
+    for (std::size_t k = 0; k < row_of_.size(); ++k) {
+      const int row = row_of_[k];
       const ContactFrame<D>& frame = frames_[row];
       problem.i[k] = body_of(bodies, pairs.i[row]);
       problem.j[k] = body_of(bodies, pairs.j[row]);
@@ -129,7 +123,10 @@ class Assembly {
       problem.distance[k] = frame.distance;
       const int law = law_index(bodies, pairs, row, laws.materials);
       problem.offset[k] = impact_offset(frame.gap, opening_[row], laws.pairs[law].restitution, rule.dt, rule.theta);
-      fill_block(bodies, frame, {pairs.i[row], pairs.j[row]}, k, problem);
+      if (problem.turns(k))
+        fill_turning_block(bodies, frame, {pairs.i[row], pairs.j[row]}, k, problem);
+      else
+        fill_block(bodies, frame, {pairs.i[row], pairs.j[row]}, k, problem);
       if constexpr (Y.friction) {
         problem.law[k] = static_cast<std::uint8_t>(law);
         if (problem.lagged) fill_lag(laws.pairs[law].tangential_restitution, start, k, problem);
@@ -146,29 +143,64 @@ class Assembly {
   /// Bodies that forces move share their contacts; the others don't count.
   static int colouring_index(const Problem<Y>& problem, int body) {
     if (body < problem.grains) return body;
-    return problem.mobile(body) && !problem.mobility[body - problem.grains].isZero(0) ? body : INT_MAX;
+    if (problem.mobile(body) && !problem.mobility[body - problem.grains].isZero(0)) return body;
+    return problem.spun(body) && !is_zero(problem.turning[body - problem.grains]) ? body : INT_MAX;
+  }
+
+  /// Rows of the contacts by colour, those of bodies that turn after the others; sizes and groups of the problem.
+  void order_contacts(const Bodies<Y>& bodies, const VerletList<D>& list, Problem<Y>& problem) {
+    row_of_.clear();
+    problem.group.assign(1, 0);
+    problem.shared = {-1, -1};
+    colour(bodies, list, false, problem);
+    problem.first_turning = row_of_.size();
+    if (bodies.rigid.any_turning) colour(bodies, list, true, problem);
+    problem.resize(row_of_.size());
+    if constexpr (Y.friction) problem.bent.resize(row_of_.size() - problem.first_turning);
+  }
+
+  void colour(const Bodies<Y>& bodies, const VerletList<D>& list, bool turning, Problem<Y>& problem) {
+    const PairColumns<D>& pairs = list.pairs();
+    rows_.clear(), body_i_.clear(), body_j_.clear();
+    for (std::size_t row = 0; row < list.size(); ++row) {
+      if (!active_[row]) continue;
+      if (bodies.rigid.any_turning &&
+          turning != (on_turning_body(bodies, pairs.i[row]) || on_turning_body(bodies, pairs.j[row])))
+        continue;
+      rows_.push_back(static_cast<int>(row));
+      body_i_.push_back(colouring_index(problem, body_of(bodies, pairs.i[row])));
+      body_j_.push_back(colouring_index(problem, body_of(bodies, pairs.j[row])));
+    }
+    const auto movable = bodies.grains() + static_cast<int>(std::max(problem.mobility.size(), problem.turning.size()));
+    colouring_.colour(body_i_, body_j_, movable, rows_.capacity());
+    const int before = static_cast<int>(row_of_.size());
+    for (const int k : colouring_.order) row_of_.push_back(rows_[k]);
+    for (int c = 0; c < colouring_.colours(); ++c) problem.group.push_back(before + colouring_.start[c + 1]);
+    if (colouring_.overflow) problem.shared[turning ? 1 : 0] = static_cast<int>(problem.group.size()) - 2;
   }
 
   /// Memory for all listed pairs and some more: the number of active ones wanders from step to step.
-  void make_room(std::size_t listed, Problem<Y>& problem) {
+  void make_room(std::size_t listed, bool rigid_contacts, Problem<Y>& problem) {
     if (rows_.capacity() >= listed) return;
     const std::size_t room = listed + listed / 2;
     rows_.reserve(room), body_i_.reserve(room), body_j_.reserve(room), row_of_.reserve(room);
     problem.reserve(room);
-    problem.group.reserve(Colouring::most_colours + 2);
+    if (rigid_contacts) problem.bent.reserve(room);
+    problem.group.reserve(2 * Colouring::most_colours + 3);
   }
 
   /// Whether no grain stands twice in a colour (the sequential tail excepted): what threads rely on.
   bool no_grain_twice(const Problem<Y>& problem, int grains) {
     colour_of_.assign(grains, -1);
-    const int colours = static_cast<int>(problem.group.size()) - 1 - (problem.sequential_tail ? 1 : 0);
-    for (int colour = 0; colour < colours; ++colour)
-      for (int k = problem.group[colour]; k < problem.group[colour + 1]; ++k)
-        for (const int grain : {problem.i[k], problem.j[k] == problem.i[k] ? grains : problem.j[k]}) {
-          if (grain >= grains) continue;
-          if (colour_of_[grain] == colour) return false;
-          colour_of_[grain] = colour;
-        }
+    const int groups = static_cast<int>(problem.group.size()) - 1;
+    for (int colour = 0; colour < groups; ++colour)
+      if (colour != problem.shared[0] && colour != problem.shared[1])
+        for (int k = problem.group[colour]; k < problem.group[colour + 1]; ++k)
+          for (const int grain : {problem.i[k], problem.j[k] == problem.i[k] ? grains : problem.j[k]}) {
+            if (grain >= grains) continue;
+            if (colour_of_[grain] == colour) return false;
+            colour_of_[grain] = colour;
+          }
     return true;
   }
 
@@ -216,6 +248,48 @@ class Assembly {
         problem.wr[k] = problem.wp[k] = i == j ? 0 : inverse_i + inverse_j;
         problem.coupling[k] = i == j ? 0 : arm_i * inverse_i - arm_j * inverse_j;
       }
+    }
+  }
+
+  /// The same for a contact of a body that turns: its levers, and the whole block.
+  static void fill_turning_block(const Bodies<Y>& bodies, const ContactFrame<D>& frame,
+                                 const std::array<int, 2>& grains, std::size_t k, Problem<Y>& problem) {
+    if constexpr (Y.friction) {
+      TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+      bent = {};
+      Mat<D> directions;
+      directions.col(0) = frame.normal;
+      directions.template rightCols<D - 1>() = across<D>(frame.normal);
+      for (const int side : {0, 1}) {
+        const int body = side == 0 ? problem.i[k] : problem.j[k];
+        const bool grain = grains[side] < bodies.grains();
+        Vec<D>& lever = side == 0 ? bent.lever_i : bent.lever_j;
+        if (grain)
+          lever = bodies.arm[grains[side]] +
+                  (side == 0 ? 1 : -1) * frame.stretch * bodies.radius[grains[side]] * frame.normal;
+        Mat<D> mobility = Mat<D>::Zero();
+        if (body < problem.grains)
+          mobility.diagonal().setConstant(problem.inverse_mass[body]);
+        else if (problem.mobile(body))
+          mobility = problem.mobility[body - problem.grains];
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b) {
+            bent.w(a, b) += directions.col(a).dot(mobility * directions.col(b));
+            const Spin<D> moment_a = cross(lever, Vec<D>(directions.col(a))),
+                          moment_b = cross(lever, Vec<D>(directions.col(b)));
+            if (body < problem.grains)
+              bent.w(a, b) += problem.inverse_inertia[body] * dot(moment_a, moment_b);
+            else if (problem.spun(body))
+              bent.w(a, b) += dot(moment_a, Spin<D>(problem.turning[body - problem.grains] * moment_b));
+          }
+      }
+      const double w_n = bent.w(0, 0), w_t = (bent.w.trace() - w_n) / (D - 1);
+      // A normal through a fixed axis: what is left is rounding of the lever.
+      const bool held = !(w_n > 1e-14 * w_t);
+      problem.wn[k] = held ? 0 : w_n;
+      problem.inverse_wn[k] = held ? 0 : 1 / w_n;
+      problem.inverse_wt[k] = 1 / w_t;
+      problem.arm_i[k] = problem.arm_j[k] = 0;
     }
   }
 

@@ -35,8 +35,9 @@ class ElasticContacts {
       const int row = assembly.row_of()[k];
       const PairLaw& law = laws.pairs[law_index(bodies, pairs, row, laws.materials)];
       const double gap = assembly.frame(row).gap;
-      const ImplicitContact contact = implicit_contact(law, coefficient(bodies, law, pairs, row),
-                                                       reduced_mass(bodies, pairs, row), gap, deflection_[row], dt);
+      const ImplicitContact contact =
+          implicit_contact(law, coefficient(bodies, law, pairs, row), bodies.reduced_mass(pairs.i[row], pairs.j[row]),
+                           gap, deflection_[row], dt);
       problem.compliance[k] = contact.compliance;
       problem.offset[k] = contact.offset;
       problem.wn[k] += contact.compliance.normal;
@@ -44,6 +45,11 @@ class ElasticContacts {
       if constexpr (Y.friction) {
         const Compliance& c = contact.compliance;
         problem.inverse_wt[k] = 1 / (1 / problem.inverse_wt[k] + c.tangential);
+        if (problem.turns(k)) {
+          auto diagonal = problem.bent[k - problem.first_turning].w.diagonal();
+          diagonal[0] += c.normal;
+          diagonal.template tail<D - 1>().array() += c.tangential;
+        }
         Components<Y> parts = components<Y>(problem.normal[k], before[row]);
         const double kept = kept_elastic(law, -gap, deflection_[row]);
         parts.tangential *= -c.tangential * kept;
@@ -113,10 +119,6 @@ class ElasticContacts {
   static double coefficient(const Bodies<Y>& bodies, const PairLaw& law, const PairColumns<D>& pairs, std::size_t row) {
     const int j = pairs.j[row];
     return coefficient(law, bodies.radius[pairs.i[row]], j < bodies.grains() ? bodies.radius[j] : -1);
-  }
-  static double reduced_mass(const Bodies<Y>& bodies, const PairColumns<D>& pairs, std::size_t row) {
-    const int i = pairs.i[row], j = pairs.j[row];
-    return j < bodies.grains() ? 1 / (1 / bodies.mass[i] + 1 / bodies.mass[j]) : bodies.mass[i];
   }
 
   std::vector<double> deflection_;  ///< h*, by row

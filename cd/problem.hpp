@@ -19,14 +19,19 @@
 // The stress-driven cell is a hub: a body that every contact touches. Its velocity is L = sum of rate_k G_k over its
 // modes, u contains L b with b = distance * n, and an impulse r changes rate_k by (r (x) b) : G_k / inertia_k.
 //
-// Planes, and then rough walls, are bodies after the grains. They don't turn; where forces may move them they have a
-// mobility, a symmetric matrix: n (x) n / M of a plane that is free along its normal, diagonal for a wall. Grains that
-// are glued to a wall are no bodies: their contacts are the wall's.
+// Planes, and then rigid bodies, are bodies after the grains. Where forces may move them they have a mobility, a
+// symmetric matrix: n (x) n / M of a plane that is free along its normal, diagonal for a rigid body. Grains that are
+// glued to a rigid body are no bodies of the problem: their contacts are the rigid body's. Where one turns, its
+// contacts have a lever of their own, from its centre to the contact point, and their block of W is full:
+//   u = v_j + w_j x lever_j - v_i - w_i x lever_i + L b,   dw = A (lever x p),  A the body's rotational mobility
+// They come after the other contacts (`first_turning`), so that those keep their closed form and their cost. They have
+// no rolling resistance.
 //
-// Contacts are stored grouped by colour (common/graph/colouring.hpp). Units: those of the scene; impulses are
-// force * time, offset is a velocity. Signs: core/conventions.hpp.
+// Contacts are stored grouped by colour (common/graph/colouring.hpp), those of disks and spheres first. Units: those of
+// the scene; impulses are force * time, offset is a velocity. Signs: core/conventions.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +39,7 @@
 #include "common/core/layout.hpp"
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
+#include "common/geometry/rigid_body.hpp"
 
 namespace galet::cd {
 
@@ -77,16 +83,37 @@ struct HubMode {
   double inverse_inertia;  ///< 1 / (mass * length^2)
 };
 
+/// A contact of a body that turns. W: the block of the Delassus operator in the frame (n, t1, t2) of across().
+template <int D>
+struct TurningContact {
+  Vec<D> lever_i = Vec<D>::Zero(), lever_j = Vec<D>::Zero();
+  Eigen::Matrix<double, D, D, Eigen::RowMajor> w = Eigen::Matrix<double, D, D, Eigen::RowMajor>::Zero();
+};
+
+/// Directions across a normal, by column: (-n_y, n_x); in 3D any one and then n x t1.
+template <int D>
+inline Eigen::Matrix<double, D, D - 1> across(const Vec<D>& n) {
+  Eigen::Matrix<double, D, D - 1> tangents;
+  if constexpr (D == 2) {
+    tangents = Vec<2>(-n.y(), n.x());
+  } else {
+    tangents.col(0) = n.unitOrthogonal();
+    tangents.col(1) = n.cross(tangents.col(0));
+  }
+  return tangents;
+}
+
 template <Layout Y>
 struct Problem {
   static constexpr int D = Y.dim;
 
-  // Bodies: the grains, the planes, the walls (the latter two with inverse mass 0 and the mobility below).
+  // Bodies: the grains, the planes, the rigid bodies (the latter two with inverse mass 0 and the mobility below).
   int grains = 0;
   Column<double> inverse_mass;
   Column<double, Y.friction> inverse_inertia;
   std::vector<HubMode<D>> hub;
-  std::vector<Mat<D>> mobility;  ///< of planes and walls; empty: forces move none of them
+  std::vector<Mat<D>> mobility;     ///< of planes and rigid bodies; empty: forces move none of them
+  std::vector<SpinMap<D>> turning;  ///< A of planes and rigid bodies; empty: none of them turns, or none freely
 
   // Contacts. W holds the compliance where there is one.
   std::vector<ContactLaw> laws;  ///< by pair of materials
@@ -104,11 +131,16 @@ struct Problem {
   Column<double, Y.rolling> coupling;       ///< c
   Column<Reaction<Y>, Y.friction> lag;      ///< of the tangential motion; its normal part is not used
   Column<Compliance> compliance;
-  std::vector<int> group;        ///< contacts group[c] .. group[c + 1] have one colour
-  bool sequential_tail = false;  ///< the last group's contacts share bodies
+  std::size_t first_turning = SIZE_MAX;        ///< contacts from here on are those of bodies that turn
+  Column<TurningContact<D>, Y.friction> bent;  ///< of contact first_turning + k
+  std::vector<int> group;                      ///< contacts group[c] .. group[c + 1] have one colour
+  std::array<int, 2> shared = {-1, -1};        ///< groups that are no colour: their contacts share bodies (-1: none)
 
   std::size_t size() const { return i.size(); }
   bool mobile(int body) const { return body >= grains && !mobility.empty(); }
+  /// Whether impulses turn the plane or rigid body.
+  bool spun(int body) const { return body >= grains && !turning.empty(); }
+  bool turns(std::size_t k) const { return k >= first_turning; }
 
   /// Memory for this many contacts.
   void reserve(std::size_t contacts) {
@@ -150,6 +182,10 @@ inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>&
   const Vec<D>& n = problem.normal[k];
   Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (gradient * n);
   if constexpr (Y.friction) {
+    if (problem.turns(k)) [[unlikely]] {
+      const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+      return u + cross(iterate.spin[j], bent.lever_j) - cross(iterate.spin[i], bent.lever_i);
+    }
     const Spin<D> rolling = problem.arm_i[k] * iterate.spin[i] + problem.arm_j[k] * iterate.spin[j];
     u -= cross(rolling, n);
   }
@@ -281,10 +317,31 @@ inline void push(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const
     iterate.velocity[body] += problem.mobility[body - problem.grains] * p;
 }
 
+/// Adds the impulse p that acts at `lever` from the centre of a body to its velocity and spin.
+template <Layout Y>
+inline void push_at(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const Vec<Y.dim>& lever,
+                    const Vec<Y.dim>& p) {
+  push(problem, iterate, body, p);
+  if constexpr (Y.friction) {
+    const Spin<Y.dim> turn = cross(lever, p);
+    if (body < problem.grains)
+      iterate.spin[body] += problem.inverse_inertia[body] * turn;
+    else if (problem.spun(body))
+      iterate.spin[body] += problem.turning[body - problem.grains] * turn;
+  }
+}
+
 /// Adds the impulse p (on j, -p on i) of contact k to the velocities of its bodies; the hub is the caller's.
 template <Layout Y>
 inline void add_impulse(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, const Vec<Y.dim>& p) {
   const int i = problem.i[k], j = problem.j[k];
+  if constexpr (Y.friction) {
+    if (problem.turns(k)) [[unlikely]] {
+      const TurningContact<Y.dim>& bent = problem.bent[k - problem.first_turning];
+      push_at(problem, iterate, i, bent.lever_i, Vec<Y.dim>(-p));
+      return push_at(problem, iterate, j, bent.lever_j, p);
+    }
+  }
   push(problem, iterate, i, Vec<Y.dim>(-p));
   push(problem, iterate, j, p);
   if constexpr (Y.friction) {

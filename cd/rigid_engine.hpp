@@ -52,6 +52,8 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     if (compliant_ && !laws_.stiff)
       throw InputError("cd.compliance needs a stiffness: give material.stiffness_level or material.normal_stiffness");
     bodies_.start(scene, derived, sample);
+    if (Y.rolling && bodies_.rigid.any_turning)
+      throw InputError("a rigid body turns: cd has no rolling or pivoting resistance of such bodies");
     prepare_problem();
     skin_ = 0.15 * diameter_;
     update_neighbours();
@@ -184,7 +186,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
   /// Inverse masses, hub, laws and the columns that a step only fills.
   void prepare_problem() {
     const std::size_t grains = bodies_.position.size();
-    const std::size_t count = grains + bodies_.planes.size() + bodies_.walls.size();
+    const std::size_t count = grains + bodies_.planes.size() + bodies_.rigid.body.size();
     problem_.grains = bodies_.grains();
     problem_.inverse_mass.assign(count, 0.0);
     problem_.inverse_inertia.assign(count, 0.0);
@@ -196,12 +198,15 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     for (const CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) problem_.hub.push_back({mode.direction, 1 / mode.inertia});
     problem_.mobility.clear();
+    problem_.turning.clear();
     bool some = false;
     for (const Plane<D>& plane : bodies_.planes)
       problem_.mobility.push_back(plane.inverse_mass * plane.normal * plane.normal.transpose());
-    for (const Wall<D>& wall : bodies_.walls) problem_.mobility.push_back(wall.mobility.asDiagonal());
+    for (const RigidBody<D>& body : bodies_.rigid.body) problem_.mobility.push_back(body.mobility.asDiagonal());
     for (const Mat<D>& mobility : problem_.mobility) some = some || !mobility.isZero(0);
     if (!some) problem_.mobility.clear();
+    if (bodies_.rigid.any_turning)
+      problem_.turning.assign(bodies_.planes.size() + bodies_.rigid.body.size(), zero_map<D>());
     problem_.laws.clear();
     for (const PairLaw& law : laws_.pairs)
       problem_.laws.push_back({law.friction, law.rolling_friction, law.pivoting_friction});
@@ -213,7 +218,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
   void predict(double dt) {
     StageTimer timer(profile_, Stage::grains);
     const std::size_t grains = bodies_.position.size(), planes = bodies_.planes.size();
-    const std::size_t count = grains + planes + bodies_.walls.size();
+    const std::size_t count = grains + planes + bodies_.rigid.body.size();
     start_.velocity.resize(count), free_.velocity.resize(count);
     Vec<D> mean = Vec<D>::Zero();
     for (std::size_t b = 0; b < grains; ++b) {
@@ -226,23 +231,40 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       start_.velocity[grains + p] = plane.velocity;
       free_.velocity[grains + p] = plane.velocity + dt * plane.force * plane.inverse_mass * plane.normal;
     }
-    for (std::size_t w = 0; w < bodies_.walls.size(); ++w) {
-      const Wall<D>& wall = bodies_.walls[w];
-      start_.velocity[grains + planes + w] = wall.velocity;
-      free_.velocity[grains + planes + w] = wall.velocity + dt * wall.mobility.cwiseProduct(wall.force);
-    }
-    for (std::size_t b = 0; b < bodies_.wall_of.size(); ++b)
-      free_.velocity[b] = free_.velocity[body_of(bodies_, static_cast<int>(b))];
     if constexpr (Y.friction) {
       start_.spin = bodies_.spin;
       start_.spin.resize(count, zero_spin<D>());
       free_.spin = start_.spin;
     }
+    predict_rigid(dt);
     start_.gradient = bodies_.cell.rate;
     predict_hub(dt);
     double spread = 0;
     for (const Vec<D>& v : free_.velocity) spread = std::max(spread, (v - mean).squaredNorm());
     spread_ = std::sqrt(spread);
+  }
+
+  /// Rigid bodies, and their grains. A torque changes J at the orientation of the start.
+  void predict_rigid(double dt) {
+    const std::size_t before = bodies_.position.size() + bodies_.planes.size();
+    for (std::size_t b = 0; b < bodies_.rigid.body.size(); ++b) {
+      const RigidBody<D>& body = bodies_.rigid.body[b];
+      start_.velocity[before + b] = body.velocity;
+      free_.velocity[before + b] =
+          body.velocity + dt * body.mobility.cwiseProduct(body.force + body.mass * bodies_.gravity);
+      if constexpr (Y.friction) {
+        const SpinMap<D> mobility = turning_mobility(body);
+        if (bodies_.rigid.any_turning) problem_.turning[before + b - bodies_.position.size()] = mobility;
+        start_.spin[before + b] = body.spin;
+        free_.spin[before + b] = body.spin + dt * (mobility * body.torque);
+      }
+    }
+    show_members(free_);
+  }
+
+  /// Velocities of the grains of rigid bodies, which no contact refers to.
+  void show_members(Iterate<Y>& iterate) const {
+    for (const int i : bodies_.rigid.member) iterate.velocity[i] = velocity_of(bodies_, iterate, i);
   }
 
   void predict_hub(double dt) {
@@ -270,7 +292,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
 
   void update_neighbours() {
     list_.configure(laws_.cohesion_range(), skin_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
     history_.carry(list_);
   }
 
@@ -286,13 +308,14 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       assembly_.measure(bodies_, list_);
       if (cohesive_) history_.attract(bodies_, list_, laws_, assembly_, rule.dt);
       if (compliant_) elastic_.start(assembly_, list_.size(), 1e-7 * diameter_);
-      assembly_.activate(bodies_, list_, free_.velocity, rule.dt, 2 * penetration_);
+      assembly_.activate(list_, free_.velocity, rule.dt, 2 * penetration_);
       copy_with_room(history_.before, history_.present);
     }
     for (bool complete = false; !complete;) {
       assemble(rule);
       StageTimer timer(profile_, Stage::solve);
       note(solver_.solve(problem_, options_, iterate_));
+      show_members(iterate_);
       history_.store(assembly_.row_of(), iterate_);
       complete = assembly_.activate_missed(bodies_, list_, iterate_, rule) == 0;
       if (compliant_ &&
@@ -328,10 +351,16 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       const int i = list_.pairs().i[row], j = list_.pairs().j[row];
       const ContactFrame<D>& frame = assembly_.frame(row);
       const Vec<D> p = -impulse * frame.normal;
-      push(problem_, iterate, body_of(bodies_, i), Vec<D>(-p));
-      push(problem_, iterate, body_of(bodies_, j), p);
+      attract(iterate, i, Vec<D>(-p));
+      attract(iterate, j, p);
       virial += p * frame.branch.transpose();
     }
+  }
+
+  /// Gives the impulse p through the centre of a member to its body.
+  void attract(Iterate<Y>& iterate, int member, const Vec<D>& p) const {
+    const bool glued = body_of(bodies_, member) != member;
+    push_at(problem_, iterate, body_of(bodies_, member), glued ? bodies_.arm[member] : Vec<D>(Vec<D>::Zero()), p);
   }
 
   /// The problem that was just solved.
@@ -375,21 +404,38 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     }
     for (std::size_t p = 0; p < bodies_.planes.size(); ++p)
       if (bodies_.planes[p].inverse_mass > 0) bodies_.planes[p].velocity = iterate_.velocity[grains + p];
-    for (std::size_t w = 0; w < bodies_.walls.size(); ++w)
-      bodies_.walls[w].velocity = iterate_.velocity[grains + bodies_.planes.size() + w];
-    bodies_.follow_walls();
+    accept_rigid();
     std::size_t m = 0;
     for (CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) mode.rate = iterate_.hub_rate[m++];
     if (!bodies_.modes.empty()) bodies_.cell.rate = velocity_gradient(bodies_.modes);
   }
 
+  void accept_rigid() {
+    const std::size_t before = bodies_.position.size() + bodies_.planes.size();
+    for (std::size_t b = 0; b < bodies_.rigid.body.size(); ++b) {
+      RigidBody<D>& body = bodies_.rigid.body[b];
+      if (!iterate_.velocity[before + b].allFinite())
+        throw RunError(fmt::format("the velocity of body {} is not finite at time {:.6g}", b, time()));
+      body.velocity = iterate_.velocity[before + b];
+      if constexpr (Y.friction) {
+        // As a change, so that what nothing turns keeps J to the last bit.
+        const Spin<D>& spin = iterate_.spin[before + b];
+        if (body.has_momentum()) body.momentum += angular_momentum<D>(body, Spin<D>(spin - body.spin));
+        body.spin = spin;
+      }
+    }
+    bodies_.follow_velocities();
+  }
+
   void move(double dt) {
-    if (theta_ == 1) return advance_positions(bodies_, iterate_.velocity, iterate_.gradient, dt);
-    for (std::size_t b = 0; b < start_.velocity.size(); ++b)
+    if (theta_ == 1) return advance_positions(bodies_, iterate_, dt);
+    for (std::size_t b = 0; b < start_.velocity.size(); ++b) {
       start_.velocity[b] = theta_ * iterate_.velocity[b] + (1 - theta_) * start_.velocity[b];
-    const Mat<D> gradient = theta_ * iterate_.gradient + (1 - theta_) * start_.gradient;
-    advance_positions(bodies_, start_.velocity, gradient, dt);
+      if constexpr (Y.friction) start_.spin[b] = theta_ * iterate_.spin[b] + (1 - theta_) * start_.spin[b];
+    }
+    start_.gradient = theta_ * iterate_.gradient + (1 - theta_) * start_.gradient;
+    advance_positions(bodies_, start_, dt);
   }
 
   void correct_drift() {

@@ -31,6 +31,7 @@ class GrainStates {
       if constexpr (Y.friction) set_spin(i, S::velocity, S::spin, bodies.spin[i]);
       set_constants(i, bodies);
     }
+    for (const int i : bodies.rigid.member) hold(i);
   }
 
   /// Writes the velocities back.
@@ -57,6 +58,16 @@ class GrainStates {
     set_spin(i, S::expected, S::expected_turning,
              get_spin(i, S::expected, S::expected_turning) + (1 + extrapolation) * change);
     set_spin(i, S::velocity, S::spin, spin(i) + kick * change);
+  }
+
+  /// A grain of a rigid body: without mobility, and at rest, so that what the kernels make of it stays small.
+  void hold(int i) {
+    for (const int group : {S::velocity, S::acceleration, S::expected}) {
+      set(i, group, Vec<D>::Zero());
+      if constexpr (D == 2) at(i, group)[2] = 0;
+    }
+    if constexpr (Y.friction && D == 3)
+      for (const int group : {S::spin, S::turning, S::expected_turning}) set(i, group, Vec<D>::Zero());
   }
 
   /// At the very start there is no step before: accelerations are expected to stay.
@@ -86,15 +97,17 @@ class GrainStates {
   }
   void set_constants(int i, const Bodies<Y>& bodies) {
     double* state = at(i, 0);
-    state[S::inverse_mass] = 1 / bodies.mass[i], *at(i, S::mass) = bodies.mass[i];
-    if constexpr (D == 2) state[S::factors] = state[S::factors + 1] = 1 / bodies.mass[i];
+    const bool free = bodies.rigid.free(i);
+    state[S::inverse_mass] = free ? 1 / bodies.mass[i] : 0, *at(i, S::mass) = bodies.mass[i];
+    if constexpr (D == 2) state[S::factors] = state[S::factors + 1] = state[S::inverse_mass];
     if constexpr (Y.friction) {
-      const double radius = bodies.radius[i], inertia = bodies.inertia[i];
+      const double radius = bodies.radius[i], inverse = free ? 1 / bodies.inertia[i] : 0;
+      const double twist = free ? -radius / bodies.inertia[i] : 0;
       if constexpr (D == 2) {
-        state[S::factors + 2] = -radius / inertia, state[S::factors + 3] = 1 / inertia;
+        state[S::factors + 2] = twist, state[S::factors + 3] = inverse;
         state[S::record_factors] = radius, state[S::record_factors + 1] = 1;
       } else {
-        state[S::twist_factor] = -radius / inertia, state[S::inverse_inertia] = 1 / inertia, state[S::radius] = radius;
+        state[S::twist_factor] = twist, state[S::inverse_inertia] = inverse, state[S::radius] = radius;
       }
     }
   }

@@ -13,6 +13,7 @@
 #include "common/core/error.hpp"
 #include "common/engine/bodies.hpp"
 #include "common/neighbour/verlet_list.hpp"
+#include "md/body_pass.hpp"
 #include "md/contact_pass.hpp"
 #include "md/contacts.hpp"
 #include "md/energy.hpp"
@@ -45,6 +46,9 @@ class SoftEngine final : public Engine<Y.dim> {
     if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && kind_.hertz)
       stiffest_ = derived.md_stiffest * std::pow(*derived.md_dt_stable / dt_, 2);
     bodies_.start(scene, derived, sample);
+    if (relaxers_.on() && !bodies_.rigid.none())
+      throw InputError("md.drag and md.acceleration_damping are refused with rigid bodies: they act on grains alone");
+    body_pass_.start(bodies_);
     seen_.gradient = bodies_.cell.rate;
     seen_.grains.resize(bodies_.grains());
     for (int i = 0; i < bodies_.grains(); ++i) {
@@ -61,6 +65,7 @@ class SoftEngine final : public Engine<Y.dim> {
     }
     evaluate(0);
     states_.forget_before(bodies_.grains());
+    body_pass_.forget_before();
     mode_before_ = mode_acceleration_;
   }
 
@@ -75,7 +80,7 @@ class SoftEngine final : public Engine<Y.dim> {
     MemoryUse use = list_.memory();
     use += contacts_.memory();
     use += carried_.memory();
-    use.grains += bodies_.bytes() + seen_.grains.bytes() + states_.bytes();
+    use.grains += bodies_.bytes() + seen_.grains.bytes() + states_.bytes() + body_pass_.bytes();
     return use;
   }
 
@@ -87,6 +92,7 @@ class SoftEngine final : public Engine<Y.dim> {
     }
     fetch_positions();
     states_.give(bodies_);
+    bodies_.follow_velocities();
   }
 
   Snapshot<D> snapshot() override {
@@ -112,6 +118,7 @@ class SoftEngine final : public Engine<Y.dim> {
     list_.save(archive);
     contacts_.save(archive);
     states_.save(archive, bodies_.grains());
+    body_pass_.save(archive);
     archive.reals["md.acceleration.modes"] = mode_acceleration_;
     archive.reals["md.acceleration_before.modes"] = mode_before_;
     energy_account_.save(archive);
@@ -129,6 +136,7 @@ class SoftEngine final : public Engine<Y.dim> {
     set_row_constants();
     energy_account_.restore(archive);
     states_.restore(archive, bodies_);
+    body_pass_.restore(archive);
     for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
     list_bound_.forget();
     take_column(archive, "md.acceleration.modes", mode_acceleration_);
@@ -150,7 +158,8 @@ class SoftEngine final : public Engine<Y.dim> {
   void begin_step() {
     StageTimer timer(profile_, Stage::grains);
     kick_modes();
-    list_bound_.moved(grain_pass_.drift(bodies_, states_, seen_, dt_), bodies_.cell.rate, dt_);
+    const double fastest = grain_pass_.drift(bodies_, states_, seen_, dt_);
+    list_bound_.moved(std::max(fastest, drift_rigid()), bodies_.cell.rate, dt_);
     predict_modes();
   }
 
@@ -175,9 +184,15 @@ class SoftEngine final : public Engine<Y.dim> {
       evaluate_contacts(dt_, false);
       StageTimer timer(profile_, Stage::grains);
       const double fastest = grain_pass_.step(bodies_, states_, seen_, list_, contacts_, dt_);
-      list_bound_.moved(fastest, bodies_.cell.rate, dt_);
+      gather_rigid(0.5 * dt_);
+      list_bound_.moved(std::max(fastest, drift_rigid()), bodies_.cell.rate, dt_);
     }
     ++steps_;
+  }
+
+  double drift_rigid() { return bodies_.rigid.none() ? 0 : body_pass_.drift(bodies_, states_, seen_, dt_); }
+  void gather_rigid(double kick) {
+    if (!bodies_.rigid.none()) body_pass_.gather(bodies_, states_, list_, contacts_, kick);
   }
 
   PassSums<D> evaluate_contacts(double dt, bool virial_wanted) {
@@ -197,6 +212,7 @@ class SoftEngine final : public Engine<Y.dim> {
     {
       StageTimer timer(profile_, Stage::grains);
       kinetic = grain_pass_.gather(bodies_, states_, seen_, list_, contacts_, 0.5 * dt, virial_wanted);
+      gather_rigid(0.5 * dt);
       GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
       if (relaxers_.on()) {
         relaxed = relax(bodies_, states_, seen_, relaxers_, 0.5 * dt, partial_power_);
@@ -207,7 +223,8 @@ class SoftEngine final : public Engine<Y.dim> {
     const Mat<D> virial = sums.virial + kinetic;
     if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
     if (!account_) return;
-    const double work = sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume());
+    const double work =
+        sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume()) + body_pass_.drive_power(bodies_);
     energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxed}, dt);
   }
 
@@ -236,12 +253,16 @@ class SoftEngine final : public Engine<Y.dim> {
     }
   }
 
-  /// Whether the sum of m (a + L v - gravity) is that of the forces from planes (action and reaction).
+  /// Whether the sum of m (a + L v - gravity) and the forces on rigid bodies is that of the forces from planes (action
+  /// and reaction).
   bool forces_balance() const {
     Vec<D> sum = Vec<D>::Zero(), from_planes = Vec<D>::Zero();
     double scale = 1e-300;
     for (int i = 0; i < bodies_.grains(); ++i)
-      sum += bodies_.mass[i] * (states_.acceleration(i) + seen_.gradient * seen_.grains.velocity(i) - bodies_.gravity);
+      if (bodies_.rigid.free(i))
+        sum +=
+            bodies_.mass[i] * (states_.acceleration(i) + seen_.gradient * seen_.grains.velocity(i) - bodies_.gravity);
+    sum += body_pass_.contact_force();
     for (std::size_t row = 0; row < list_.size(); ++row) {
       scale += contacts_.force(row).norm();
       if (list_.pairs().j[row] >= bodies_.grains()) from_planes -= contacts_.force(row);
@@ -288,7 +309,7 @@ class SoftEngine final : public Engine<Y.dim> {
     list_bound_.set(0);
     fetch_positions();
     std::swap(contacts_, carried_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
     contacts_.carry(carried_, list_, bodies_.grains());
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();
@@ -309,18 +330,17 @@ class SoftEngine final : public Engine<Y.dim> {
     contacts_.set_constants(equal_pairs_, [&](std::size_t row) -> std::array<double, 3> {
       const int i = pairs.i[row], j = pairs.j[row];
       const bool plane = j >= grains;
-      const double mass = bodies_.mass[i], radius = bodies_.radius[i];
-      const double reduced_mass = plane ? mass : mass * bodies_.mass[j] / (mass + bodies_.mass[j]);
+      const double radius = bodies_.radius[i];
       const double curvature = plane ? radius : reduced_radius(radius, bodies_.radius[j]);
       const double coefficient = normal_coefficient(laws_[contacts_.law(row)], curvature);
       return {plane ? radius : radius + bodies_.radius[j], coefficient,
-              critical_damping(kind_, coefficient, reduced_mass)};
+              critical_damping(kind_, coefficient, bodies_.reduced_mass(i, j))};
     });
   }
 
-  /// Whether all pairs have the same constants: one kind of grains, no planes.
+  /// Whether all pairs have the same constants: one kind of grains, no planes, no rigid bodies.
   bool pairs_are_equal() const {
-    if (!bodies_.planes.empty() || laws_.size() > 1) return false;
+    if (!bodies_.planes.empty() || !bodies_.rigid.none() || laws_.size() > 1) return false;
     for (int i = 1; i < bodies_.grains(); ++i)
       if (bodies_.radius[i] != bodies_.radius[0] || bodies_.mass[i] != bodies_.mass[0]) return false;
     return true;
@@ -375,6 +395,7 @@ class SoftEngine final : public Engine<Y.dim> {
   Contacts<Y> contacts_, carried_;
   ContactPass<Y> pass_;
   GrainPass<Y> grain_pass_;
+  BodyPass<Y> body_pass_;
   ContactColumns<D> shown_;
   std::vector<double> partial_power_;
   EnergyAccount energy_account_;

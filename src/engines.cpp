@@ -17,8 +17,6 @@ EngineKind engine_kind(const std::string& name) {
 template <int D>
 std::unique_ptr<Engine<D>> make_engine(EngineKind kind, const Scene& scene, const Derived& derived,
                                        const Sample<D>& sample) {
-  if (kind == EngineKind::md && !sample.wall.empty())
-    throw InputError("[[wall]] entries need engine cd: md has no rigid bodies");
   if (kind == EngineKind::md)
     for (const Plane<D>& plane : sample.planes)
       if (plane.inverse_mass > 0)

@@ -89,7 +89,7 @@ void save_sample(Archive& archive, const Sample<D>& sample) {
   put_column(archive, "sample.radius", sample.radius);
   put_column(archive, "sample.mass", sample.mass);
   archive.integers["sample.material"].assign(sample.material.begin(), sample.material.end());
-  archive.integers["sample.wall"].assign(sample.wall.begin(), sample.wall.end());
+  archive.integers["sample.body"].assign(sample.body.begin(), sample.body.end());
   archive.integers["sample.plane_material"].assign(sample.plane_material.begin(), sample.plane_material.end());
 }
 
@@ -121,8 +121,8 @@ Sample<D> stored_sample(const Archive& archive) {
   sample.material.resize(sample.count(), 0);
   const auto& plane_material = integer_column(archive, "sample.plane_material");
   sample.plane_material.assign(plane_material.begin(), plane_material.end());
-  const auto& wall = integer_column(archive, "sample.wall");
-  sample.wall.assign(wall.begin(), wall.end());
+  const auto& body = integer_column(archive, "sample.body");
+  sample.body.assign(body.begin(), body.end());
   return sample;
 }
 

@@ -4,7 +4,8 @@
 //   W = sum over bodies of J M^-1 J^T  +  sum over modes of the hub of g g^T / inertia  +  compliance (diagonal)
 //   q = u of the free velocities + offset (N) + lag (T, R)
 //
-// J: rows n.(v_j - v_i), t.(v_j - v_i) - arm (n x t).w, t.(w_j - w_i); g: n.G b and t.G b, b the branch.
+// J: rows n.(v_j - v_i), t.(v_j - v_i) - arm (n x t).w, t.(w_j - w_i), with (lever x d).w for each direction d in
+// contacts of bodies that turn; g: n.G b and t.G b, b the branch.
 // Disks: t = (-n_y, n_x). Spheres: t1 is any direction across n (Eigen's unitOrthogonal), t2 = n x t1.
 //
 //   layout          block   mu
@@ -77,9 +78,15 @@ class DiscreteForm {
               "contacts that resist pivoting have no FCLIB form: set material.pivoting_friction = 0, or leave it out");
       const int contact = static_cast<int>(kept_.size());
       kept_.push_back(k);
-      tangents_.push_back(tangents(problem.normal[k]));
+      tangents_.push_back(across<D>(problem.normal[k]));
       const int i = problem.i[k], j = problem.j[k];
-      if (i == j) {
+      if (problem.turns(k)) {
+        if constexpr (Y.friction) {
+          const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+          sides_[i].push_back({contact, jacobian(contact, -1, bent.lever_i)});
+          sides_[j].push_back({contact, jacobian(contact, 1, bent.lever_j)});
+        }
+      } else if (i == j) {
         sides_[i].push_back({contact, jacobian(contact, -1, arm_i(k)) + jacobian(contact, 1, arm_j(k))});
       } else {
         sides_[i].push_back({contact, jacobian(contact, -1, arm_i(k))});
@@ -95,18 +102,6 @@ class DiscreteForm {
 
   static void append(const Values& values, std::vector<double>& to) {
     to.insert(to.end(), values.data(), values.data() + block);
-  }
-
-  /// Directions across the normal, by column.
-  static Eigen::Matrix<double, D, D - 1> tangents(const Vec<D>& n) {
-    Eigen::Matrix<double, D, D - 1> across;
-    if constexpr (D == 2) {
-      across = Vec<2>(-n.y(), n.x());
-    } else {
-      across.col(0) = n.unitOrthogonal();
-      across.col(1) = n.cross(across.col(0));
-    }
-    return across;
   }
 
   double arm_i(std::size_t k) const {
@@ -150,14 +145,37 @@ class DiscreteForm {
     return by;
   }
 
+  /// The same where the lever is not along the normal.
+  Jacobian jacobian(int contact, double side, const Vec<D>& lever) const {
+    Jacobian by = jacobian(contact, side, 0.0);
+    const auto turn = [&](int row, const Vec<D>& direction) {
+      const Spin<D> moment = side * cross(lever, direction);
+      if constexpr (D == 2)
+        by(row, D) = moment;
+      else
+        by.template block<1, 3>(row, D) = moment.transpose();
+    };
+    turn(0, problem_.normal[kept_[contact]]);
+    for (int a = 0; a < D - 1; ++a) turn(1 + a, tangents_[contact].col(a));
+    return by;
+  }
+
   Mobility mobility(int body) const {
     Mobility answer = Mobility::Zero();
     if (body < problem_.grains)
       answer.diagonal().template head<D>().setConstant(problem_.inverse_mass[body]);
     else if (problem_.mobile(body))
       answer.template topLeftCorner<D, D>() = problem_.mobility[body - problem_.grains];
-    if constexpr (Y.friction) answer.diagonal().template tail<spins>().setConstant(problem_.inverse_inertia[body]);
+    if constexpr (Y.friction) {
+      answer.diagonal().template tail<spins>().setConstant(problem_.inverse_inertia[body]);
+      if (problem_.spun(body)) set_turning(problem_.turning[body - problem_.grains], answer);
+    }
     return answer;
+  }
+
+  static void set_turning(double turning, Mobility& answer) { answer(D, D) = turning; }
+  static void set_turning(const Mat<3>& turning, Mobility& answer) {
+    answer.template bottomRightCorner<spins, spins>() = turning.template topLeftCorner<spins, spins>();
   }
 
   /// Blocks (c, d) of W with d >= c; the others are their transposes, so that W is symmetric to the last bit.

@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "cd/laws/contact_bounds.hpp"
+#include "cd/laws/turning_contact.hpp"
 #include "cd/problem.hpp"
 #include "cd/residual.hpp"
 #include "cd/solvers/report.hpp"
@@ -75,7 +76,7 @@ class Nsgs {
     ResidualParts total;
     const int groups = static_cast<int>(problem.group.size()) - 1;
     for (int g = 0; g < groups; ++g) {
-      const bool shared = problem.sequential_tail && g == groups - 1;
+      const bool shared = g == problem.shared[0] || g == problem.shared[1];
       const std::size_t end = problem.group[g + 1];
       for (std::size_t begin = problem.group[g]; begin < end; begin += block_)
         total += sweep_block(problem, iterate, begin, std::min(end, begin + block_), shared);
@@ -119,8 +120,9 @@ class Nsgs {
     const Vec<D>& n = problem.normal[k];
     const Reaction<Y> before = iterate.reaction[k];
     const Components<Y> r = components<Y>(n, before);
-    const Reaction<Y> after =
-        composed<Y>(n, solve_contact<Y>(problem, k, law_motion(problem, iterate, gradient, k, r), r));
+    const Components<Y> motion = law_motion(problem, iterate, gradient, k, r);
+    const Reaction<Y> after = composed<Y>(n, problem.turns(k) ? solve_turning_contact<Y>(problem, k, motion, r)
+                                                              : solve_contact<Y>(problem, k, motion, r));
     const Reaction<Y> change = after - before;
     const double impulse = weighted_square(problem, k, after);
     if (change.isZero(0)) return {0, impulse};

@@ -1,4 +1,5 @@
-// The bodies of a run in a layout's columns: grains, planes, cell. Both engines hold their state in this form.
+// The bodies of a run in a layout's columns: grains, planes, rigid bodies, cell. Both engines hold their state in this
+// form.
 #pragma once
 
 #include "common/core/archive_columns.hpp"
@@ -8,18 +9,12 @@
 #include "common/engine/engine.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/geometry/wrap.hpp"
 #include "common/scene/derive.hpp"
+#include "common/scene/rigid_bodies.hpp"
 #include "common/scene/sample.hpp"
 
 namespace galet {
-
-/// A rough wall: a rigid body of grains that moves without turning.
-template <int D>
-struct Wall {
-  Vec<D> velocity = Vec<D>::Zero();
-  Vec<D> force = Vec<D>::Zero();
-  Vec<D> mobility = Vec<D>::Zero();  ///< 1 / mass along its free directions, 0 along the others
-};
 
 template <Layout Y>
 struct Bodies {
@@ -36,11 +31,13 @@ struct Bodies {
   std::vector<CellMode<D>> modes;
   std::vector<Plane<D>> planes;
   std::vector<int> plane_material;
-  std::vector<Wall<D>> walls;
-  std::vector<int> wall_of;  ///< index of each grain's wall, or -1; empty: there are no walls
+  RigidBodies<D> rigid;
+  std::vector<Vec<D>> arm;  ///< of each grain from its rigid body's centre, in the fixed frame; empty: none has one
   Vec<D> gravity = Vec<D>::Zero();
 
-  std::size_t bytes() const { return bytes_of(position, velocity, radius, mass, material, spin, inertia, wall_of); }
+  std::size_t bytes() const {
+    return bytes_of(position, velocity, radius, mass, material, spin, inertia, arm, rigid.offset, rigid.of);
+  }
   int grains() const { return static_cast<int>(position.size()); }
   bool stress_driven() const {
     for (const CellMode<D>& mode : modes)
@@ -64,45 +61,70 @@ struct Bodies {
     material.resize(position.size(), 0);
     plane_material = sample.plane_material;
     plane_material.resize(planes.size(), 0);
-    start_walls(scene, sample);
     modes = cell_modes<D>(scene, derived, sample);
+    rigid = rigid_bodies<D>(scene, sample);
+    if (!rigid.none()) {
+      if (!modes.empty()) throw InputError("rigid bodies need a cell that does not move: loading.kind = \"none\"");
+      arm.assign(position.size(), Vec<D>::Zero());
+      follow();
+    }
     if (!modes.empty()) cell.rate = velocity_gradient(modes);
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
   }
 
-  void start_walls(const Scene& scene, const Sample<D>& sample) {
-    wall_of = sample.wall;
-    walls.assign(wall_of.empty() ? 0 : scene.walls.size(), {});
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-      const WallSpec& spec = scene.walls[w];
-      double total = 0;
-      for (int i = 0; i < grains(); ++i)
-        if (wall_of[i] == static_cast<int>(w)) total += mass[i];
-      for (int a = 0; a < D; ++a) {
-        if (!spec.velocity.empty()) walls[w].velocity[a] = spec.velocity[a];
-        if (!spec.force.empty()) walls[w].force[a] = spec.force[a];
-        if (!spec.free.empty() && spec.free[a]) walls[w].mobility[a] = 1 / spec.mass.value_or(total);
+  /// Velocities, spins and arms of the grains of rigid bodies from these. Positions are follow()'s.
+  void follow_velocities() {
+    for (std::size_t b = 0; b < rigid.body.size(); ++b) {
+      const RigidBody<D>& body = rigid.body[b];
+      const Mat<D> rotation = rotation_of(body);
+      for (int k = rigid.first[b]; k < rigid.first[b + 1]; ++k) {
+        const int i = rigid.member[k];
+        arm[i] = rotation * rigid.offset[i];
+        velocity[i] = body.velocity + cross(body.spin, arm[i]);
+        if constexpr (Y.friction) spin[i] = body.spin;
       }
     }
-    follow_walls();
   }
 
-  /// Grains of walls move as these do.
-  void follow_walls() {
-    for (std::size_t i = 0; i < wall_of.size(); ++i) {
-      if (wall_of[i] < 0) continue;
-      velocity[i] = walls[wall_of[i]].velocity;
-      if constexpr (Y.friction) spin[i] = zero_spin<D>();
+  /// Puts the grains of rigid bodies where these are, at the images nearest to where they were.
+  void follow() {
+    follow_velocities();
+    const bool periodic = cell.any_periodic();
+    Mat<D> inverse;
+    if (periodic) inverse = cell.box.inverse();
+    for (std::size_t b = 0; b < rigid.body.size(); ++b) {
+      Vec<D>& centre = rigid.body[b].centre;
+      if (periodic) centre = wrapped_position<D>(cell, inverse, centre);
+      for (int k = rigid.first[b]; k < rigid.first[b + 1]; ++k) {
+        const int i = rigid.member[k];
+        position[i] = image_near<D>(cell, inverse, Vec<D>(centre + arm[i]), position[i]);
+      }
     }
   }
 
-  /// Kinetic, rotational, cell and gravity parts of the energy.
+  /// m* of the dashpot between two grains, or a grain and a plane (j >= grains()).
+  double reduced_mass(int i, int j) const {
+    const double m_i = rigid.none() ? mass[i] : rigid.contact_mass[i];
+    if (j >= grains()) return std::isfinite(m_i) ? m_i : mass[i];
+    const double m_j = rigid.none() ? mass[j] : rigid.contact_mass[j];
+    if (std::isfinite(m_i) && std::isfinite(m_j)) return m_i * m_j / (m_i + m_j);
+    // Where nothing moves either side the value does not matter.
+    return std::isfinite(m_i) ? m_i : std::isfinite(m_j) ? m_j : mass[i];
+  }
+
+  /// Kinetic, rotational, cell and gravity parts of the energy. Grains of rigid bodies count by these.
   EnergyParts energy() const {
     EnergyParts parts;
     for (int i = 0; i < grains(); ++i) {
+      if (!rigid.free(i)) continue;
       parts.kinetic += 0.5 * mass[i] * velocity[i].squaredNorm();
       parts.gravity -= mass[i] * gravity.dot(position[i]);
       if constexpr (Y.friction) parts.rotational += 0.5 * inertia[i] * squared(spin[i]);
+    }
+    for (const RigidBody<D>& body : rigid.body) {
+      parts.kinetic += 0.5 * body.mass * body.velocity.squaredNorm();
+      parts.rotational += 0.5 * dot(body.spin, angular_momentum(body));
+      parts.gravity -= body.mass * gravity.dot(body.centre);
     }
     for (const CellMode<D>& mode : modes)
       if (mode.stress_driven) parts.cell += 0.5 * mode.inertia * mode.rate * mode.rate;
@@ -119,6 +141,7 @@ struct Bodies {
     if constexpr (Y.friction) shown.spin = spin;
     shown.radius = radius;
     shown.mass = mass;
+    shown.bodies = rigid.body;
     return shown;
   }
 
@@ -141,9 +164,7 @@ struct Bodies {
     std::vector<double>& velocities = archive.reals["planes.velocity"];
     points.clear(), velocities.clear();
     for (const Plane<D>& plane : planes) append(points, plane.point), append(velocities, plane.velocity);
-    std::vector<double>& moving = archive.reals["walls.velocity"];
-    moving.clear();
-    for (const Wall<D>& wall : walls) append(moving, wall.velocity);
+    save_rigid(archive);
     archive.integers["layout"] = {Y.dim, Y.friction, Y.rolling};
   }
 
@@ -173,9 +194,34 @@ struct Bodies {
     for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].point);
     take_column(archive, "planes.velocity", numbers);
     for (std::size_t p = 0; p < planes.size(); ++p) extract(numbers.data() + D * p, planes[p].velocity);
-    numbers.resize(D * walls.size());
-    take_column(archive, "walls.velocity", numbers);
-    for (std::size_t w = 0; w < walls.size(); ++w) extract(numbers.data() + D * w, walls[w].velocity);
+    restore_rigid(archive);
+  }
+
+ private:
+  void save_rigid(Archive& archive) const {
+    std::vector<double>& column = archive.reals["bodies.state"];
+    column.clear();
+    for (const RigidBody<D>& body : rigid.body) {
+      append(column, body.centre), append(column, body.velocity);
+      append(column, body.spin), append(column, body.momentum);
+      append(column, numbers_of(body.orientation));
+    }
+  }
+
+  void restore_rigid(const Archive& archive) {
+    using Orientation = decltype(numbers_of(RigidBody<D>{}.orientation));
+    constexpr std::size_t size = components<Vec<D>> * 2 + components<Spin<D>> * 2 + components<Orientation>;
+    std::vector<double> column(size * rigid.body.size());
+    take_column(archive, "bodies.state", column);
+    const double* from = column.data();
+    for (RigidBody<D>& body : rigid.body) {
+      from = extract(from, body.centre), from = extract(from, body.velocity);
+      from = extract(from, body.spin), from = extract(from, body.momentum);
+      Orientation orientation;
+      from = extract(from, orientation);
+      set_orientation(orientation, body.orientation);
+    }
+    follow_velocities();
   }
 };
 

@@ -10,6 +10,7 @@
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/geometry/rigid_body.hpp"
 
 namespace galet {
 
@@ -46,6 +47,7 @@ struct Snapshot {
   std::span<const Spin<D>> spin;     ///< empty in a frictionless layout
   std::span<const double> radius;
   std::span<const double> mass;
+  std::span<const RigidBody<D>> bodies;  ///< rigid bodies, in the order of the scene
   const ContactColumns<D>* contacts = nullptr;
 
   int grains() const { return static_cast<int>(position.size()); }

@@ -29,4 +29,15 @@ Vec<D> wrapped_position(const Cell<D>& cell, const Mat<D>& inverse, const Vec<D>
   return inside;
 }
 
+/// The image of x that is nearest to `place`; x itself where nothing is periodic.
+template <int D>
+Vec<D> image_near(const Cell<D>& cell, const Mat<D>& inverse, const Vec<D>& x, const Vec<D>& place) {
+  if (!cell.any_periodic()) return x;
+  const Vec<D> away = inverse * (place - x);
+  Vec<D> image = x;
+  for (int a = 0; a < D; ++a)
+    if (cell.periodic[a]) image += std::round(away[a]) * cell.box.col(a);
+  return image;
+}
+
 }  // namespace galet

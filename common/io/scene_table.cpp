@@ -119,10 +119,10 @@ void add_listed_grains(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().material; },
                   .fallback = "[material]",
                   .doc = "name of its material"});
-  rows.push_back({.path = "grain.wall",
-                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().wall; },
+  rows.push_back({.path = "grain.body",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.listed.back().body; },
                   .fallback = "none",
-                  .doc = "cd: name of the wall that it is glued to"});
+                  .doc = "name of the rigid body that it is glued to"});
 }
 
 void add_initial(Rows& rows) {
@@ -211,33 +211,6 @@ void add_planes(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
                   .fallback = "[material]",
                   .doc = "name of its material"});
-}
-
-void add_walls(Rows& rows) {
-  rows.push_back({.path = "wall.name",
-                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().name; },
-                  .required = true,
-                  .doc = "what its grains call it"});
-  rows.push_back({.path = "wall.velocity",
-                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().velocity; },
-                  .quantity = Quantity::velocity,
-                  .fallback = "at rest",
-                  .doc = "imposed; where the wall is free: at the start"});
-  rows.push_back({.path = "wall.free",
-                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().free; },
-                  .fallback = "false in each direction",
-                  .doc = "per direction: moved by the grains' forces and `force`, not by `velocity`"});
-  rows.push_back({.path = "wall.force",
-                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().force; },
-                  .quantity = Quantity::force,
-                  .fallback = "none",
-                  .doc = "on the wall, along its free directions"});
-  rows.push_back({.path = "wall.mass",
-                  .target = [](Scene& s) -> FieldTarget { return &s.walls.back().mass; },
-                  .quantity = Quantity::mass,
-                  .range = above(0),
-                  .fallback = "that of its grains",
-                  .doc = "inertia along the free directions"});
 }
 
 void add_loading(Rows& rows) {
@@ -413,7 +386,7 @@ const std::vector<SceneField>& scene_fields() {
   static const Rows table = [] {
     Rows rows;
     for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material,
-                           add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_walls, add_loading,
+                           add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_bodies, add_loading,
                            add_drives, add_engines, add_run, add_compare})
       add(rows);
     return rows;
@@ -455,13 +428,13 @@ const std::vector<SceneSection>& scene_sections() {
        .list = true,
        .doc = "A plane boundary, one table per plane; parallel to the periodic directions.",
        .append = [](Scene& s) { s.planes.emplace_back(); }},
-      {.name = "wall",
+      {.name = "body",
        .list = true,
-       .doc =
-           "A rough wall, one table per wall (cd): the [[grain]] entries that name it, glued together. It is one rigid "
-           "body that moves without turning, in each direction as imposed or as forces move it. Gravity does not act "
-           "on it.",
-       .append = [](Scene& s) { s.walls.emplace_back(); }},
+       .doc = "A rigid body, one table per body: the [[grain]] entries that name it, glued together (a clump, a rough "
+              "wall, a rough cylinder). In each direction it moves, and about each axis it turns, as imposed or as "
+              "forces make it. Rotations have one component in 2D and three in 3D. Gravity acts on it where it is "
+              "free. Its grains don't act on each other, and may overlap.",
+       .append = [](Scene& s) { s.bodies.emplace_back(); }},
       {.name = "loading", .doc = "What is imposed on the sample."},
       {.name = "drive",
        .list = true,

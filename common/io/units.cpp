@@ -52,6 +52,10 @@ std::vector<Unit> units(Quantity quantity, int dimension) {
       return {{"N/m"}, {"kN/m", 1e3}, {"MN/m", 1e6}, {"GN/m", 1e9}};
     case Quantity::force:
       return {{"nN", 1, 1e9}, {"uN", 1, 1e6}, {"mN", 1, 1e3}, {"N"}, {"kN", 1e3}};
+    case Quantity::torque:
+      return {{"nN m", 1, 1e9}, {"uN m", 1, 1e6}, {"mN m", 1, 1e3}, {"N m"}, {"kN m", 1e3}};
+    case Quantity::inertia:
+      return {{"g mm2", 1, 1e9}, {"g cm2", 1, 1e7}, {"kg m2"}};
     case Quantity::modulus:
       return pressure_units(3);
   }
@@ -120,6 +124,10 @@ std::string with_article(Quantity quantity) {
       return "a stiffness";
     case Quantity::force:
       return "a force";
+    case Quantity::torque:
+      return "a torque";
+    case Quantity::inertia:
+      return "an inertia";
     case Quantity::modulus:
       return "a modulus";
   }

@@ -23,6 +23,8 @@ enum class Quantity {
   pressure,
   stiffness,
   force,
+  torque,
+  inertia,
   modulus  ///< of elasticity: a force per area in 2D too
 };
 

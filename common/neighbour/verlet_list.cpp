@@ -199,6 +199,7 @@ void VerletList<D>::search_bin(int i, int bin, const Image<D>& image, std::span<
     const double cutoff = radius[i] + radius[j] + range_ + skin_;
     const double squared_distance = branch.squaredNorm();
     if (squared_distance >= cutoff * cutoff) continue;
+    if (!group_.empty() && group_[i] >= 0 && group_[i] == group_[j]) continue;
     const double overlap = radius[i] + radius[j] - std::sqrt(squared_distance);
     if (overlap > 0.5 * std::min(radius[i], radius[j]))
       throw RunError(
@@ -273,7 +274,8 @@ void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const dou
 
 template <int D>
 void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
-                          std::span<const Plane<D>> planes) {
+                          std::span<const Plane<D>> planes, std::span<const int> group) {
+  group_ = group;
   try {
     wrap(position, cell);
     largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());

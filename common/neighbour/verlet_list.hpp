@@ -56,9 +56,9 @@ class VerletList {
 
   /// Wraps positions and box, and lists all pairs anew. Throws RunError, naming the grains, when a position is not
   /// finite or absurdly far, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane; the
-  /// list is then empty.
+  /// list is then empty. Grains of one group (>= 0) are not paired; no groups: all are.
   void build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
-             std::span<const Plane<D>> planes);
+             std::span<const Plane<D>> planes, std::span<const int> group = {});
 
   const PairColumns<D>& pairs() const { return pairs_; }
   std::size_t size() const { return pairs_.size(); }
@@ -123,6 +123,7 @@ class VerletList {
   std::vector<std::vector<Neighbour>> chunk_found_;
   std::vector<int> found_count_, bin_cursor_;
   std::vector<std::string> failures_;  ///< of the chunks of a search; empty: none
+  std::span<const int> group_;         ///< while a list is built
 };
 
 extern template class VerletList<2>;

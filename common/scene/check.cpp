@@ -390,7 +390,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_initial(report);
   check_cell(report);
   check_planes(report);
-  check_walls(report);
+  check_bodies(report);
   check_loading(report);
   check_run(report);
   check_compare(report);

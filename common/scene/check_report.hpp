@@ -49,7 +49,7 @@ void check_material(Report& report);
 void check_material_names(Report& report);  ///< of materials, and who refers to them
 void check_relaxers(Report& report);
 
-// check_walls.cpp
-void check_walls(Report& report);
+// check_bodies.cpp
+void check_bodies(Report& report);
 
 }  // namespace galet::scene_check

@@ -9,6 +9,7 @@
 #include "common/core/error.hpp"
 #include "common/scene/md_step.hpp"
 #include "common/scene/packing.hpp"
+#include "common/scene/rigid_bodies.hpp"
 
 namespace galet {
 
@@ -18,7 +19,7 @@ double force_scale_power(int dim, double diameter) { return dim == 2 ? 1 : diame
 
 void derive_material(const Scene& scene, Derived& derived) {
   derived.laws = law_table(scene, derived.pressure, derived.grains.mean_diameter);
-  derived.layout = {scene.dimension, derived.laws.any_rotation(), derived.laws.any_rolling()};
+  derived.layout = {scene.dimension, derived.laws.any_rotation() || any_turning(scene), derived.laws.any_rolling()};
   if (derived.laws.stiff && derived.pressure)
     derived.stiffness_level =
         stiffness_level(derived.laws.at(0, 0), scene.dimension, *derived.pressure, derived.grains.mean_diameter);
@@ -65,6 +66,8 @@ NamedTime shortest_time(const Scene& scene, const Derived& derived) {
   double gravity = 0;
   for (double component : scene.loading.gravity) gravity += component * component;
   if (gravity > 0) consider(std::sqrt(d / std::sqrt(gravity)), "sqrt(d / g)");
+  if (derived.grains.largest_acceleration > 0)
+    consider(std::sqrt(d / derived.grains.largest_acceleration), "sqrt(d / acceleration) of a body");
   for (const PlaneSpec& plane : scene.planes) {
     double speed = 0;
     for (double component : plane.velocity) speed += component * component;
@@ -85,6 +88,36 @@ double squared_speed(const Sample<D>& sample, int i) {
   return (sample.velocity[i] + sample.cell.rate * sample.position[i]).squaredNorm();
 }
 
+/// What rigid bodies add to the facts. A body of n grains meets n times the contacts of one: it counts as grains of
+/// mass M / n, and in rotation as grains whose I, with their r^2, add up to its own.
+template <int D>
+void add_body_facts(const Scene& scene, const Sample<D>& sample, GrainFacts& facts) {
+  const RigidBodies<D> bodies = rigid_bodies<D>(scene, sample);
+  for (std::size_t b = 0; b < bodies.body.size(); ++b) {
+    const RigidBody<D>& body = bodies.body[b];
+    const Vec<D> push = body.mobility.cwiseProduct(body.force);
+    const Spin<D> turn = turning_mobility(body) * body.torque;
+    Spin<D> share = zero_spin<D>();
+    for (int k = bodies.first[b]; k < bodies.first[b + 1]; ++k) {
+      const Vec<D>& arm = bodies.offset[bodies.member[k]];
+      const double radius = sample.radius[bodies.member[k]], own = inertia_ratio<D> * radius * radius;
+      if constexpr (D == 2)
+        share += own + arm.squaredNorm();
+      else
+        share += Vec<3>((own + arm.squaredNorm()) * Vec<3>::Ones() - arm.cwiseAbs2());
+      facts.largest_acceleration =
+          std::max(facts.largest_acceleration, push.norm() + std::sqrt(squared(turn)) * arm.norm());
+    }
+    if (!body.mobility.isZero(0))
+      facts.least_mass = std::min(facts.least_mass, body.mass / (bodies.first[b + 1] - bodies.first[b]));
+    if (body.turning == Turning::imposed) continue;
+    if constexpr (D == 2)
+      facts.least_mass = std::min(facts.least_mass, body.moments / share);
+    else
+      facts.least_mass = std::min(facts.least_mass, body.moments.cwiseQuotient(share).minCoeff());
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -102,6 +135,7 @@ GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample) {
   double fastest = 0;
   for (int i = 0; i < sample.count(); ++i) fastest = std::max(fastest, squared_speed(sample, i));
   facts.largest_speed = std::sqrt(fastest);
+  if (!sample.body.empty()) add_body_facts(scene, sample, facts);
   return facts;
 }
 
@@ -226,7 +260,7 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
     if (value) lines.push_back({symbol, fmt::format("{:.6g}", *value), from});
   };
   const GrainFacts& grains = derived.grains;
-  lines.push_back({"layout", to_string(derived.layout), "smallest that the material's friction needs"});
+  lines.push_back({"layout", to_string(derived.layout), "smallest that friction and bodies that turn need"});
   lines.push_back({"N", fmt::format("{}", grains.count), "grains"});
   add("d", grains.mean_diameter, "mean diameter");
   add("d_max/d_min", grains.largest_diameter / grains.least_diameter, "of the grains drawn");

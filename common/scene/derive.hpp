@@ -20,9 +20,10 @@ struct GrainFacts {
   double mean_diameter = 1;  ///< d
   double least_diameter = 1;
   double largest_diameter = 1;
-  double mean_mass = 1;  ///< m, mass of a grain of mean diameter
-  double least_mass = 1;
-  double largest_speed = 0;  ///< at the start
+  double mean_mass = 1;             ///< m, mass of a grain of mean diameter
+  double least_mass = 1;            ///< of the grains, and what rigid bodies offer each of their grains' contacts
+  double largest_speed = 0;         ///< at the start
+  double largest_acceleration = 0;  ///< that forces and torques give to grains of rigid bodies
 };
 
 template <int D>

@@ -14,6 +14,7 @@
 #include "common/scene/materials.hpp"
 #include "common/scene/placement.hpp"
 #include "common/scene/random_insertion.hpp"
+#include "common/scene/rigid_bodies.hpp"
 #include "common/scene/spatial_order.hpp"
 
 namespace galet {
@@ -178,7 +179,8 @@ void place_on_lattice(const Scene& scene, Sample<D>& sample) {
   }
 }
 
-/// Refuses grains that overlap by more than the given share of R_i + R_j, or that cross a plane as far.
+/// Refuses grains that overlap by more than the given share of R_i + R_j (those of one body may), or that cross a plane
+/// as far.
 template <int D>
 void refuse_overlaps(const Sample<D>& sample, double share) {
   const double largest = *std::max_element(sample.radius.begin(), sample.radius.end());
@@ -190,7 +192,10 @@ void refuse_overlaps(const Sample<D>& sample, double share) {
                       width[a], a + 1, 2 * largest));
   PlacementGrid<D> grid(sample.cell, 2 * largest, sample.count());
   for (int i = 0; i < sample.count(); ++i) {
-    const int other = grid.touched(sample.position[i], sample.radius[i], 1 - share);
+    const auto glued = [&](int j) {
+      return !sample.body.empty() && sample.body[i] >= 0 && sample.body[j] == sample.body[i];
+    };
+    const int other = grid.touched(sample.position[i], sample.radius[i], 1 - share, glued);
     if (other >= 0) throw InputError(fmt::format("grains {} and {} overlap", other + 1, i + 1));
     const int plane = crossed_plane<D>(sample.planes, sample.position[i], sample.radius[i] * (1 - share));
     if (plane >= 0) throw InputError(fmt::format("grain {} crosses plane {}", i + 1, plane + 1));
@@ -259,12 +264,12 @@ Cell<D> enclosing_cell(const Sample<D>& sample, const std::array<bool, D>& perio
   return cell;
 }
 
-/// Index of the wall of that name; -1 for no name.
-int wall_index(const Scene& scene, const std::string& name) {
+/// Index of the body of that name; -1 for no name.
+int body_index(const Scene& scene, const std::string& name) {
   if (name.empty()) return -1;
-  for (std::size_t k = 0; k < scene.walls.size(); ++k)
-    if (scene.walls[k].name == name) return static_cast<int>(k);
-  throw InputError("there is no wall called '" + name + "'");
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    if (scene.bodies[k].name == name) return static_cast<int>(k);
+  throw InputError("there is no body called '" + name + "'");
 }
 
 template <int D>
@@ -286,12 +291,13 @@ Sample<D> listed_sample(const Scene& scene) {
   if (scene.cell.size.empty() && any_periodic) throw InputError("cell.size: listed grains in a periodic cell need it");
   sample.cell = scene.cell.size.empty() ? enclosing_cell<D>(sample, periodic) : initial_cell<D>(scene, 0);
   sample.planes = scene_planes<D>(scene);
-  if (!scene.walls.empty())
-    for (const ListedGrain& grain : listed) sample.wall.push_back(wall_index(scene, grain.wall));
+  if (!scene.bodies.empty())
+    for (const ListedGrain& grain : listed) sample.body.push_back(body_index(scene, grain.body));
   wrap_positions<D>(sample);
   refuse_overlaps<D>(sample, listed_overlap);
   assign_materials<D>(scene, sample);
   set_masses<D>(scene, sample);
+  move_with_bodies<D>(scene, sample);
   return sample;
 }
 

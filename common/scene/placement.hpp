@@ -32,8 +32,9 @@ class PlacementGrid {
   int count() const { return static_cast<int>(position_.size()); }
 
   /// Index (in the order of add) of a placed grain j whose centre, or an image of it, is nearer to x than
-  /// factor * (radius + R_j); -1 when there is none.
-  int touched(const Vec<D>& x, double radius, double factor = 1) const {
+  /// factor * (radius + R_j); -1 when there is none. Grains with skip(j) don't count.
+  template <class Skip>
+  int touched(const Vec<D>& x, double radius, double factor, const Skip& skip) const {
     const Vec<D> inside = wrapped_position<D>(cell_, inverse_, x);
     const Image<D> home = grid_cell(inside);
     int combinations = 1;
@@ -43,10 +44,13 @@ class PlacementGrid {
       if (index < 0) continue;
       for (int j = first_[index]; j >= 0; j = next_[j]) {
         const double reach = factor * (radius + radius_[j]);
-        if ((position_[j] + shift - inside).squaredNorm() < reach * reach) return j;
+        if ((position_[j] + shift - inside).squaredNorm() < reach * reach && !skip(j)) return j;
       }
     }
     return -1;
+  }
+  int touched(const Vec<D>& x, double radius, double factor = 1) const {
+    return touched(x, radius, factor, [](int) { return false; });
   }
 
   void add(const Vec<D>& x, double radius) {

@@ -21,7 +21,7 @@ struct Sample {
   std::vector<double> mass;
   std::vector<int> material;        ///< index: 0 is [material], 1.. the scene's further materials
   std::vector<int> plane_material;  ///< the same, one per plane; empty: all 0
-  std::vector<int> wall;            ///< index of the scene's wall that the grain is glued to, or -1; empty: none is
+  std::vector<int> body;  ///< index of the scene's rigid body that the grain is glued to, or -1; empty: none is
 
   int count() const { return static_cast<int>(position.size()); }
   void resize(int count) {

@@ -28,7 +28,7 @@ struct ListedGrain {
   std::vector<double> spin = {};      ///< angular velocity: 1 component in 2D, 3 in 3D, or empty for none
   double diameter = 1;
   std::string material = {};  ///< name; empty: [material]
-  std::string wall = {};      ///< cd: name of the wall that it is glued to; empty: none
+  std::string body = {};      ///< name of the rigid body that it is glued to; empty: none
 };
 
 /// Grains (by number) that are of a further material: [[group]] entries. Who belongs to a group is drawn from the seed.
@@ -138,13 +138,19 @@ struct PlaneSpec {
   double force = 0;                   ///< on a free plane, along its normal: > 0 presses it against the grains
 };
 
-/// cd: a rough wall, a rigid body made of the listed grains that name it. It moves without turning.
-struct WallSpec {
+/// A rigid body made of the listed grains that name it: a clump, a rough wall, a rough cylinder. Rotations have 1
+/// component in 2D and 3 in 3D.
+struct BodySpec {
   std::string name = {};
-  std::vector<double> velocity = {};  ///< D components, imposed where the wall is not free; empty: at rest
-  std::vector<bool> free = {};        ///< per direction: moved by forces; empty: in none
-  std::vector<double> force = {};     ///< D components, on its free directions; empty: none
-  std::optional<double> mass = {};    ///< inertia (default: its grains' masses)
+  std::vector<double> velocity = {};     ///< of the centre, imposed where the body is not free; empty: at rest
+  std::vector<bool> free = {};           ///< per direction: moved by forces; empty: in none
+  std::vector<double> force = {};        ///< along its free directions; empty: none
+  std::vector<double> spin = {};         ///< angular velocity, imposed where it does not turn freely; empty: none
+  std::vector<bool> free_rotation = {};  ///< per axis: turned by torques; empty: about none. 3D: about one, or all
+  std::vector<double> torque = {};       ///< about its free axes; empty: none
+  std::optional<double> mass = {};       ///< default: its grains'
+  std::vector<double> centre = {};       ///< of mass; empty: its grains'
+  std::vector<double> inertia = {};      ///< about the centre: I, in 3D xx, yy, zz, xy, xz, yz; empty: its grains'
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
@@ -226,7 +232,7 @@ struct Scene {
   InitialSpec initial;
   CellSpec cell;
   std::vector<PlaneSpec> planes;
-  std::vector<WallSpec> walls;
+  std::vector<BodySpec> bodies;
   LoadingSpec loading;
   MdSpec md;
   CdSpec cd;

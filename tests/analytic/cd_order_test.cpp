@@ -158,12 +158,12 @@ template <int D>
 double rolling_off_error(double dt, double theta) {
   constexpr double below = 0.5, above = 0.3;
   Scene scene = weighty_scene<D>(1, 0, dt, theta);
-  scene.walls = {{.name = "floor"}};
+  scene.bodies = {{.name = "floor"}};
   const auto direction = [](double angle) {
     return Vec<D>(std::cos(angle) * up<D>() + std::sin(angle) * generic_tangent<D>(up<D>()));
   };
   Sample<D> sample = pair_sample<D>(direction(0.2), 0, {below, above});
-  sample.wall = {0, -1};
+  sample.body = {0, -1};
   const auto engine = make_engine<D>(EngineKind::cd, scene, sample);
   engine->advance(std::lround(1 / dt));
   const Vec<D> expected =

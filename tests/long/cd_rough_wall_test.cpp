@@ -27,7 +27,7 @@ struct Flow {
 Flow between_walls(double speed) {
   Scene scene = flow_scene();
   scene.cell.periodic = {true, false};
-  scene.walls = {
+  scene.bodies = {
       {.name = "floor"},
       {.name = "lid", .velocity = {speed, 0}, .free = {false, true}, .force = {0, -pressure * columns * 1.2}}};
   Sample<2> sample;
@@ -37,8 +37,8 @@ Flow between_walls(double speed) {
   for (int k = 0; k < sample.count(); ++k)
     sample.position[k] = Vec<2>((k % columns + 0.5) * 1.2, (k / columns + 1) * 1.2 + rows / 2.0);
   vary_sizes<2>(sample, 0.2, 61);
-  sample.wall.assign(sample.count(), -1);
-  for (int k = 0; k < columns; ++k) sample.wall[k] = 0, sample.wall[sample.count() - 1 - k] = 1;
+  sample.body.assign(sample.count(), -1);
+  for (int k = 0; k < columns; ++k) sample.body[k] = 0, sample.body[sample.count() - 1 - k] = 1;
   const auto engine = make_engine<2>(EngineKind::cd, scene, sample);
   engine->advance(std::lround(250 / dt));
   Flow flow;

@@ -108,6 +108,60 @@ Problem<Y> random_problem(std::uint64_t seed, bool hub, bool compliant) {
   return problem;
 }
 
+/// The same with a rigid body that turns, and contacts of it with three grains and with the plane that moves.
+template <Layout Y>
+Problem<Y> with_turning_body(Problem<Y> problem, std::uint64_t seed) {
+  constexpr int D = Y.dim;
+  constexpr int more = 4;
+  RandomStream stream(seed, 3);
+  const int body = problem.grains + 2, first = static_cast<int>(problem.size());
+  problem.inverse_mass.push_back(0), problem.inverse_inertia.push_back(0);
+  Vec<D> mobility = Vec<D>::Constant(0.8);
+  mobility[1] = 0;  // its velocity along y is imposed
+  problem.mobility.push_back(mobility.asDiagonal());
+  problem.turning.assign(3, zero_map<D>());
+  if constexpr (D == 2) {
+    problem.turning[2] = 1.7;
+  } else {
+    Mat<3> root;
+    for (int a = 0; a < 3; ++a) root.col(a) = random_vector<3>(stream);
+    problem.turning[2] = root * root.transpose();
+  }
+  problem.resize(first + more);
+  problem.first_turning = first;
+  problem.bent.resize(more);
+  for (int k = first; k < first + more; ++k) {
+    problem.i[k] = k == first + 3 ? body : k - first;
+    problem.j[k] = k == first + 3 ? problem.grains : body;
+    const Vec<D>& n = problem.normal[k] = random_vector<D>(stream).normalized();
+    problem.distance[k] = 1, problem.law[k] = 0, problem.arm_i[k] = problem.arm_j[k] = 0;
+    TurningContact<D>& bent = problem.bent[k - first];
+    bent.lever_i = k == first + 3 ? random_vector<D>(stream) : Vec<D>(0.5 * n);
+    bent.lever_j = k == first + 3 ? Vec<D>(Vec<D>::Zero()) : random_vector<D>(stream);
+    problem.lag[k].setZero();
+    if (problem.compliant) problem.compliance[k] = {0.5, 0.4, 0, 0};
+    // The block by unit impulses. The hub's share is left out: it only steers the solver.
+    Iterate<Y> rest;
+    rest.velocity.assign(body + 1, Vec<D>::Zero()), rest.spin.assign(body + 1, zero_spin<D>());
+    for (int a = 0; a < D; ++a) {
+      Vec<D> unit = n;
+      if (a > 0) unit = across<D>(n).col(a - 1);
+      Iterate<Y> pushed = rest;
+      add_impulse(problem, pushed, k, unit);
+      const Vec<D> u = relative_velocity(problem, pushed, rest.gradient, k);
+      bent.w(0, a) = n.dot(u);
+      for (int b = 1; b < D; ++b) bent.w(b, a) = across<D>(n).col(b - 1).dot(u);
+    }
+    if (problem.compliant) bent.w.diagonal().array() += 0.4;
+    if (problem.compliant) bent.w(0, 0) += 0.1;
+    problem.wn[k] = bent.w(0, 0), problem.inverse_wn[k] = 1 / problem.wn[k];
+    problem.inverse_wt[k] = (D - 1) / (bent.w.trace() - problem.wn[k]);
+    problem.offset[k] = stream.uniform(-2, -1);
+    problem.group.push_back(k + 1);
+  }
+  return problem;
+}
+
 /// Row of the discrete block that holds direction `a` of the contact's own components; -1: none.
 template <Layout Y>
 std::vector<int> rows_of_directions() {
@@ -273,6 +327,31 @@ void check_layout() {
       // The residual of cd (relative to impulses) at 1e-12 and errS measure the same map in other scales.
       expect_solution(step, 1e-9);
     }
+}
+
+template <Layout Y>
+void check_turning() {
+  for (const bool hub : {false, true})
+    for (const bool compliant : {false, true}) {
+      SCOPED_TRACE(to_string(Y) + " and a body that turns" + (hub ? ", hub" : "") + (compliant ? ", compliant" : ""));
+      const Problem<Y> problem = with_turning_body(random_problem<Y>(3, hub, compliant), 5);
+      const Iterate<Y> free = random_motion(problem, 7);
+      Iterate<Y> solved = free;
+      Nsgs<Y> solver;
+      ASSERT_EQ(solver.solve(problem, {1e-12, 400000}, solved).stop, StopReason::converged);
+      const StepProblem step = DiscreteForm<Y>::of(problem, free, solved.reaction);
+      double turning = 0;
+      for (std::size_t k = problem.first_turning; k < problem.size(); ++k)
+        turning = std::max(turning, solved.reaction[k].norm());
+      EXPECT_GT(turning, 0.1) << "some of its contacts bear impulses";
+      expect_operator(problem, free, step.problem);
+      expect_solution(step, 1e-9);
+    }
+}
+
+TEST(StepProblem, MatchesTheOperatorOfBodiesThatTurn) {
+  check_turning<Layout{2, true}>();
+  check_turning<Layout{3, true}>();
 }
 
 TEST(StepProblem, MatchesTheOperatorOfDisks) {

@@ -1,0 +1,79 @@
+// The rows of rigid bodies: [[body]].
+#include "common/io/scene_table.hpp"
+
+namespace galet::scene_table {
+
+namespace {
+
+void add_translation(Rows& rows) {
+  rows.push_back({.path = "body.velocity",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().velocity; },
+                  .quantity = Quantity::velocity,
+                  .fallback = "at rest",
+                  .doc = "of its centre; imposed, or where the body is free: at the start"});
+  rows.push_back({.path = "body.free",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().free; },
+                  .fallback = "false in each direction",
+                  .doc = "per direction: moved by the grains' forces, gravity and `force`, not by `velocity`"});
+  rows.push_back({.path = "body.force",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().force; },
+                  .quantity = Quantity::force,
+                  .fallback = "none",
+                  .doc = "on the body, along its free directions"});
+}
+
+void add_rotation(Rows& rows) {
+  rows.push_back({.path = "body.spin",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().spin; },
+                  .quantity = Quantity::angular_velocity,
+                  .number_too = true,
+                  .fallback = "none",
+                  .doc = "angular velocity about its centre; imposed, or where the body turns freely: at the start"});
+  rows.push_back({.path = "body.free_rotation",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().free_rotation; },
+                  .fallback = "false about each axis",
+                  .doc =
+                      "`[true]` in 2D, `[true, true, true]` in 3D: turned by the grains' forces and `torque`, not by "
+                      "`spin`; in 3D it may be about one axis only, which then stays where it is"});
+  rows.push_back({.path = "body.torque",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().torque; },
+                  .quantity = Quantity::torque,
+                  .number_too = true,
+                  .fallback = "none",
+                  .doc = "on the body, about its free axes"});
+}
+
+void add_mass(Rows& rows) {
+  rows.push_back({.path = "body.mass",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().mass; },
+                  .quantity = Quantity::mass,
+                  .range = above(0),
+                  .fallback = "that of its grains",
+                  .doc = "of the body; its inertia is then in proportion to that of its grains"});
+  rows.push_back({.path = "body.centre",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().centre; },
+                  .quantity = Quantity::length,
+                  .fallback = "that of its grains' masses",
+                  .doc = "of mass: what `velocity` is of, and what it turns about"});
+  rows.push_back(
+      {.path = "body.inertia",
+       .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().inertia; },
+       .quantity = Quantity::inertia,
+       .number_too = true,
+       .fallback = "that of its grains",
+       .doc = "moment of inertia about the centre; in 3D xx, yy, zz, xy, xz, yz of the tensor at the start"});
+}
+
+}  // namespace
+
+void add_bodies(Rows& rows) {
+  rows.push_back({.path = "body.name",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().name; },
+                  .required = true,
+                  .doc = "what its grains call it"});
+  add_translation(rows);
+  add_rotation(rows);
+  add_mass(rows);
+}
+
+}  // namespace galet::scene_table

@@ -1,0 +1,156 @@
+// The rules of rigid bodies, and of the grains that are glued to them.
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include "common/core/near_match.hpp"
+#include "common/scene/check_report.hpp"
+#include "common/scene/rigid_bodies.hpp"
+
+namespace galet::scene_check {
+
+namespace {
+
+bool any(const std::vector<bool>& values) { return std::find(values.begin(), values.end(), true) != values.end(); }
+
+std::size_t axes(const Scene& scene) { return scene.dimension == 2 ? 1 : 3; }
+
+/// A rotation has one component in 2D and three in 3D, or is absent.
+void check_rotation(Report& report, const std::string& path, std::size_t size) {
+  const std::size_t wanted = axes(report.scene);
+  report.rule(size == 0 || size == wanted, path,
+              fmt::format("{}: {}D needs {} component{}, got {}", path, report.scene.dimension, wanted,
+                          wanted == 1 ? "" : "s", size),
+              {"dimension"});
+}
+
+/// Loads act only where the body is free.
+void check_load(Report& report, const std::string& path, const std::string& free_path, const std::vector<double>& load,
+                const std::vector<bool>& free, const std::string& what) {
+  for (std::size_t a = 0; a < load.size(); ++a)
+    report.rule(load[a] == 0 || (a < free.size() && free[a]), path,
+                fmt::format("{}: the body {}{}, where its {} is imposed", path, what,
+                            what == "is not free" ? fmt::format(" along {}", axis(a))
+                            : load.size() > 1     ? fmt::format(" about {}", axis(a))
+                                                  : "",
+                            what == "is not free" ? "velocity" : "spin"),
+                {free_path});
+}
+
+void check_axes(Report& report, const std::string& path, const BodySpec& body) {
+  if (report.scene.dimension != 3 || body.free_rotation.size() != 3) return;
+  const auto count = std::count(body.free_rotation.begin(), body.free_rotation.end(), true);
+  report.rule(count != 2, path + "free_rotation",
+              path + "free_rotation: a body turns freely about one axis or about all three, not about two");
+  if (count != 1 || body.spin.size() != 3) return;
+  for (std::size_t a = 0; a < 3; ++a)
+    report.rule(body.free_rotation[a] || body.spin[a] == 0, path + "spin",
+                fmt::format("{}spin: a body that turns freely about one axis can't have an imposed spin about {}", path,
+                            axis(a)),
+                {path + "free_rotation"});
+}
+
+bool positive_definite(const std::vector<double>& v) {
+  if (v.size() == 1) return v[0] > 0;
+  const Eigen::Matrix3d tensor = (Eigen::Matrix3d() << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2]).finished();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0;
+}
+
+void check_mass(Report& report, const std::string& path, const BodySpec& body) {
+  const bool moved = any(body.free), turned = any(body.free_rotation);
+  report.rule(!body.mass || moved || turned, path + "mass",
+              path + "mass has no effect on a body that is free in nothing", {path + "free", path + "free_rotation"});
+  report.components(path + "centre", body.centre.size());
+  report.rule(body.centre.empty() || turns(body), path + "centre",
+              path + "centre has no effect on a body that never turns", {path + "spin", path + "free_rotation"});
+  if (body.inertia.empty()) return;
+  report.rule(turned, path + "inertia", path + "inertia has no effect on a body that does not turn freely",
+              {path + "free_rotation"});
+  const std::size_t wanted = report.scene.dimension == 2 ? 1 : 6;
+  if (body.inertia.size() != wanted)
+    report.add(path + "inertia",
+               fmt::format("{}inertia: {}D needs {}, got {}", path, report.scene.dimension,
+                           wanted == 1 ? "a number" : "6 components (xx, yy, zz, xy, xz, yz)", body.inertia.size()),
+               {"dimension"});
+  else
+    report.rule(positive_definite(body.inertia), path + "inertia",
+                path + "inertia: every moment of inertia must be above 0");
+}
+
+void check_body(Report& report, std::size_t k) {
+  const BodySpec& body = report.scene.bodies[k];
+  const std::string path = fmt::format("body[{}].", k);
+  report.components(path + "velocity", body.velocity.size());
+  report.components(path + "free", body.free.size());
+  report.components(path + "force", body.force.size());
+  check_rotation(report, path + "spin", body.spin.size());
+  check_rotation(report, path + "free_rotation", body.free_rotation.size());
+  check_rotation(report, path + "torque", body.torque.size());
+  check_load(report, path + "force", path + "free", body.force, body.free, "is not free");
+  check_load(report, path + "torque", path + "free_rotation", body.torque, body.free_rotation, "does not turn freely");
+  check_axes(report, path, body);
+  check_mass(report, path, body);
+  const auto& listed = report.scene.grains.listed;
+  const bool used =
+      std::any_of(listed.begin(), listed.end(), [&](const ListedGrain& grain) { return grain.body == body.name; });
+  report.rule(used, path + "name",
+              fmt::format("{}name: no [[grain]] is glued to {}: give its grains body = {}", path, quoted(body.name),
+                          quoted(body.name)),
+              {"grain"});
+}
+
+void check_company(Report& report) {
+  const Scene& scene = report.scene;
+  if (scene.bodies.empty()) return;
+  report.rule(scene.loading.kind == LoadingKind::none, "body",
+              "[[body]] entries need loading.kind = \"none\": bodies move the grains, not the cell", {"loading.kind"});
+  for (const auto& [value, name] :
+       {std::pair{scene.md.drag, "md.drag"}, std::pair{scene.md.acceleration_damping, "md.acceleration_damping"}})
+    report.rule(value == 0, name, fmt::format("{} is refused with [[body]] entries: it acts on grains alone", name),
+                {"body"});
+  const auto rolls = [](double rolling, double pivoting) { return rolling > 0 || pivoting > 0; };
+  bool rolling = rolls(scene.material.rolling_friction, scene.material.pivoting_friction);
+  for (const OtherMaterial& other : scene.other_materials)
+    rolling = rolling || rolls(other.rolling_friction.value_or(0), other.pivoting_friction.value_or(0));
+  for (const MaterialPair& pair : scene.pairs)
+    rolling = rolling || rolls(pair.rolling_friction.value_or(0), pair.pivoting_friction.value_or(0));
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    report.rule(scene.engine != EngineKind::cd || !rolling || !turns(scene.bodies[k]), fmt::format("body[{}]", k),
+                fmt::format("body[{}] turns: cd has no rolling or pivoting resistance of such bodies; take engine = "
+                            "\"md\", or leave out the resistance",
+                            k),
+                {"engine", "material", "other_material", "material_pair"});
+}
+
+}  // namespace
+
+void check_bodies(Report& report) {
+  const Scene& scene = report.scene;
+  Paths names;
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const std::string path = fmt::format("body[{}].name", k), &name = scene.bodies[k].name;
+    report.rule(!name.empty(), path, path + " is empty");
+    report.rule(name.empty() || seen.insert(name).second, path,
+                fmt::format("{}: {} is the name of another body already", path, quoted(name)));
+    if (!name.empty()) check_body(report, k);
+    names.push_back(name);
+  }
+  check_company(report);
+  for (std::size_t k = 0; k < scene.grains.listed.size(); ++k) {
+    const ListedGrain& grain = scene.grains.listed[k];
+    const std::string path = fmt::format("grain[{}].", k);
+    if (grain.body.empty()) continue;
+    const bool known = std::find(names.begin(), names.end(), grain.body) != names.end();
+    report.rule(
+        known, path + "body",
+        fmt::format("{}body: no [[body]] is called {}{}", path, quoted(grain.body), suggestion(grain.body, names)),
+        {"body"});
+    report.rule(grain.velocity.empty() && grain.spin.empty(), path + "body",
+                path + "body: a grain of a body moves with it: leave out its velocity and spin");
+  }
+}
+
+}  // namespace galet::scene_check
