@@ -28,7 +28,9 @@ void advance_positions(Bodies<Y>& bodies, const Column<Vec<Y.dim>>& velocity, co
   }
   for (std::size_t p = 0; p < bodies.planes.size(); ++p)
     bodies.planes[p].point += dt * velocity[bodies.position.size() + p];
-  if (!still) bodies.cell.box += dt * (gradient * bodies.cell.box);
+  if (still) return;
+  bodies.cell.box += dt * (gradient * bodies.cell.box);
+  bodies.cell.strain += dt * gradient;
 }
 
 /// What a correction did: the overlap that is left, and whether positions were moved.

@@ -59,6 +59,12 @@ class GrainStates {
     set_spin(i, S::velocity, S::spin, spin(i) + kick * change);
   }
 
+  /// An acceleration that jumps, between steps: it is expected to stay.
+  void shift(int i, const Vec<D>& jump) {
+    set(i, S::acceleration, acceleration(i) + jump);
+    set(i, S::expected, get(i, S::expected) + jump);
+  }
+
   /// At the very start there is no step before: accelerations are expected to stay.
   void forget_before(int grains) {
     for (int i = 0; i < grains; ++i) {
