@@ -35,7 +35,10 @@ void advance_positions(Bodies<Y>& bodies, const Iterate<Y>& motion, double dt) {
   }
   for (std::size_t p = 0; p < bodies.planes.size(); ++p)
     bodies.planes[p].point += dt * velocity[bodies.position.size() + p];
-  if (!still) bodies.cell.box += dt * (gradient * bodies.cell.box);
+  if (!still) {
+    bodies.cell.box += dt * (gradient * bodies.cell.box);
+    bodies.cell.strain += dt * gradient;
+  }
   const std::size_t before = bodies.position.size() + bodies.planes.size();
   for (std::size_t b = 0; b < bodies.rigid.body.size(); ++b) {
     RigidBody<D>& body = bodies.rigid.body[b];

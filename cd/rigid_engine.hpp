@@ -81,6 +81,12 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     for (long k = 0; k < count; ++k) step();
   }
 
+  void change(const Scene& scene, const Derived& derived) override {
+    bodies_.change_loading(scene, derived);
+    laws_ = derived.laws;
+    prepare_problem();
+  }
+
   StepProblem step_with_problem() override {
     StepProblem problem;
     capture_ = &problem;
@@ -139,6 +145,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
 
  private:
   void step() {
+    bodies_.advance_loads(dt_);
     predict(dt_);
     // The largest distance that two bodies may cover towards each other in one go.
     const double most = 0.5 * least_diameter_;

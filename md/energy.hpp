@@ -36,6 +36,13 @@ class EnergyAccount {
     last_ = now;
   }
 
+  /// Another loading between two steps: `given` is the energy that the change itself has put in, `power` by how much
+  /// the drives' power jumps.
+  void change(double given, double power) {
+    flows_.work += given;
+    last_.work += power;
+  }
+
   const EnergyFlows& flows() const { return flows_; }
 
   void save(Archive& archive) const {

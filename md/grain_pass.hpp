@@ -123,7 +123,10 @@ class GrainPass {
   }
 
   static void move_boundaries(Bodies<Y>& bodies, const Mat<D>& deform, double dt) {
-    if (!bodies.cell.rate.isZero(0)) bodies.cell.box = deform * bodies.cell.box;
+    if (!bodies.cell.rate.isZero(0)) {
+      bodies.cell.box = deform * bodies.cell.box;
+      bodies.cell.strain += dt * bodies.cell.rate;
+    }
     for (Plane<D>& plane : bodies.planes) plane.point += dt * plane.velocity;
   }
 

@@ -70,6 +70,12 @@ class GrainStates {
       for (const int group : {S::spin, S::turning, S::expected_turning}) set(i, group, Vec<D>::Zero());
   }
 
+  /// An acceleration that jumps, between steps: it is expected to stay.
+  void shift(int i, const Vec<D>& jump) {
+    set(i, S::acceleration, acceleration(i) + jump);
+    set(i, S::expected, get(i, S::expected) + jump);
+  }
+
   /// At the very start there is no step before: accelerations are expected to stay.
   void forget_before(int grains) {
     for (int i = 0; i < grains; ++i) {

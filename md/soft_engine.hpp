@@ -95,6 +95,28 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.follow_velocities();
   }
 
+  /// Accelerations belong to the loading: they jump with it. A component that stops being driven in stress, or starts
+  /// to be, gives or takes the cell's energy at once: that is work of the drives.
+  void change(const Scene& scene, const Derived& derived) override {
+    const double energy_before = account_ ? energy().total() : 0;
+    const Mat<D> virial = contact_virial() + kinetic_virial(bodies_, states_);
+    const double power_before = drive_power(bodies_.modes, virial, bodies_.cell.volume());
+    const Mat<D> rate = bodies_.cell.rate;
+    const Vec<D> gravity = bodies_.gravity;
+    bodies_.change_loading(scene, derived);
+    laws_ = derived.laws.pairs;
+    terms_.clear();
+    for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
+    for (int i = 0; i < bodies_.grains(); ++i)
+      states_.shift(i, (rate - bodies_.cell.rate) * states_.velocity(i) + bodies_.gravity - gravity);
+    mode_acceleration_.assign(bodies_.modes.size(), 0.0);
+    accelerate_modes(virial, 0);
+    mode_before_ = mode_acceleration_;
+    if (account_)
+      energy_account_.change(energy().total() - energy_before,
+                             drive_power(bodies_.modes, virial, bodies_.cell.volume()) - power_before);
+  }
+
   Snapshot<D> snapshot() override {
     fill_shown();
     Snapshot<D> shown = bodies_.view();
@@ -221,6 +243,7 @@ class SoftEngine final : public Engine<Y.dim> {
     }
     StageTimer timer(profile_, Stage::drives);
     const Mat<D> virial = sums.virial + kinetic;
+    bodies_.advance_loads(dt);
     if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
     if (!account_) return;
     const double work =
@@ -294,6 +317,15 @@ class SoftEngine final : public Engine<Y.dim> {
       mode.rate += kick_dt * mode_acceleration_[k];
     }
     bodies_.cell.rate = velocity_gradient(bodies_.modes);
+  }
+
+  /// Sum over the contacts of F (x) b, by the forces of the last evaluation.
+  Mat<D> contact_virial() const {
+    Mat<D> sum = Mat<D>::Zero();
+    for (std::size_t row = 0; row < list_.size(); ++row)
+      if (contacts_.acts(row) && list_.pairs().j[row] < bodies_.grains())
+        sum += contacts_.force(row) * frame_of(row).branch.transpose();
+    return sum;
   }
 
   void update_neighbours() {

@@ -50,7 +50,7 @@ struct CompareRow {
   TimeSeries series;
   std::string picture;              ///< reference rows in 2D: SVG text of the last state
   std::vector<ProfileRow> profile;  ///< reference rows: across the last state
-  bool usable() const { return ending == Ending::finished || ending == Ending::equilibrium; }
+  bool usable() const { return ending != Ending::interrupted && ending != Ending::failed; }
 };
 
 /// What the rows at one inertial number say together.

@@ -101,7 +101,8 @@ std::vector<PlannedRow> compare_plan(const Scene& scene) {
 
 Scene shortened(const Scene& scene) {
   Scene brief = scene;
-  const bool given = scene.initial.kind == InitialKind::listed || scene.initial.kind == InitialKind::packing;
+  const bool given = scene.initial.kind == InitialKind::listed || scene.initial.kind == InitialKind::packing ||
+                     scene.initial.kind == InitialKind::checkpoint;
   if (!given) brief.grains.count = std::min(scene.grains.count, 400);
   if (scene.loading.kind == LoadingKind::plane_shear) {
     if (scene.loading.pressure) brief.compare.inertial_numbers = {0.1};

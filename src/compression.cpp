@@ -13,7 +13,8 @@ Scene compression_scene(const Scene& scene, const Derived& derived) {
   gas.loading = LoadingSpec{};
   gas.loading.kind = LoadingKind::isotropic;
   gas.loading.pressure = derived.pressure;
-  gas.run.strain.reset();
+  gas.stages.clear();
+  static_cast<EndSpec&>(gas.run) = EndSpec{};
   gas.run.duration = compression_limit * *derived.inertial_time;
   gas.run.equilibrium = compression_equilibrium;
   gas.run.samples = 400;

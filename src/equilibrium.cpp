@@ -5,6 +5,7 @@
 
 #include "common/core/error.hpp"
 #include "common/measure/coordination.hpp"
+#include "common/measure/unbalanced_force.hpp"
 
 namespace galet {
 
@@ -29,23 +30,32 @@ Mat<D> stress_of(const Measurement& sample) {
 }  // namespace
 
 template <int D>
-EquilibriumTest<D>::EquilibriumTest(const Scene& scene, const Derived& derived, const Sample<D>& sample,
-                                    double threshold) {
+EquilibriumTest<D>::EquilibriumTest(const Scene& scene, const Derived& derived)
+    : tolerance_(scene.run.stress_tolerance.value_or(equilibrium_stress_tolerance)),
+      energy_threshold_(scene.run.equilibrium),
+      unbalanced_threshold_(scene.run.unbalanced),
+      friction_(derived.layout.friction) {
   if (!derived.pressure) throw InputError("run.equilibrium needs loading.pressure: it is measured against P d^D");
   pressure_ = *derived.pressure;
   energy_unit_ = pressure_ * std::pow(derived.grains.mean_diameter, D);
-  threshold_ = threshold;
-  friction_ = derived.layout.friction;
-  for (const CellMode<D>& mode : cell_modes(scene, derived, sample))
+  for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity_[a] = scene.loading.gravity[a];
+  for (const CellMode<D>& mode : cell_modes<D>(scene, derived, 1, 1))
     if (mode.stress_driven) held_.push_back(mode);
 }
 
 template <int D>
 bool EquilibriumTest<D>::reached(const Measurement& sample, const Snapshot<D>& snapshot) const {
   // The cheap conditions first: few samples get as far as the search for rattlers.
-  return balanced(sample) && sample[Observable::rattler_fraction] <= largest_rattler_fraction &&
-         sample[Observable::cell] / snapshot.grains() < threshold_ * energy_unit_ &&
-         backbone_energy(snapshot) < threshold_;
+  if (!balanced(sample) || sample[Observable::rattler_fraction] > largest_rattler_fraction) return false;
+  if (energy_threshold_ && !(sample[Observable::cell] / snapshot.grains() < *energy_threshold_ * energy_unit_ &&
+                             backbone_energy(snapshot) < *energy_threshold_))
+    return false;
+  return !unbalanced_threshold_ || unbalanced(snapshot) < *unbalanced_threshold_;
+}
+
+template <int D>
+double EquilibriumTest<D>::unbalanced(const Snapshot<D>& snapshot) const {
+  return unbalanced_force_ratio<D>(snapshot, gravity_, rattlers(snapshot, friction_));
 }
 
 template <int D>
@@ -70,7 +80,7 @@ bool EquilibriumTest<D>::balanced(const Measurement& sample) const {
     const double stress = sigma.cwiseProduct(mode.direction).sum();
     // A target of zero stress is compared on the scale of the pressure.
     const double scale = mode.load != 0 ? std::abs(mode.load) : pressure_;
-    return std::abs(stress - mode.load) <= equilibrium_stress_tolerance * scale;
+    return std::abs(stress - mode.load) <= tolerance_ * scale;
   });
 }
 

@@ -25,6 +25,16 @@ void put_stress(Measurement& row, const Mat<D>& sigma) {
   }
 }
 
+/// `strain`: integral of the velocity gradient.
+template <int D>
+void put_strain(Measurement& row, const Mat<D>& strain) {
+  row[Observable::strain] = strain(0, 1);
+  row[Observable::eps_xx] = 0 - strain(0, 0);  // no -0
+  row[Observable::eps_yy] = 0 - strain(1, 1);
+  if constexpr (D == 3) row[Observable::eps_zz] = 0 - strain(2, 2);
+  row[Observable::eps_v] = 0 - strain.trace();
+}
+
 void put_energy(Measurement& row, const EnergyParts& energy, int grains) {
   row[Observable::kinetic] = energy.kinetic;
   row[Observable::rotational] = energy.rotational;
@@ -83,7 +93,7 @@ Measurement measure(Engine<D>& engine, const MeasureScale& scale) {
   const Snapshot<D> snapshot = engine.snapshot();
   Measurement row;
   row[Observable::time] = engine.time();
-  row[Observable::strain] = scale.shear_rate * engine.time();
+  put_strain<D>(row, snapshot.cell->strain);
   put_stress<D>(row, stress(snapshot).total());
   row[Observable::solid_fraction] = solid_fraction(snapshot);
 

@@ -10,6 +10,10 @@ namespace galet {
 enum class Observable {
   time,
   strain,
+  eps_xx,
+  eps_yy,
+  eps_zz,
+  eps_v,
   sigma_xx,
   sigma_yy,
   sigma_zz,
@@ -69,7 +73,11 @@ struct ObservableInfo {
 
 inline constexpr std::array<ObservableInfo, observable_count> observable_table = {{
     {"time", Reduction::latest, Shown::always, "simulated time"},
-    {"strain", Reduction::latest, Shown::always, "shear strain, L_xy times time; 0 without imposed shear"},
+    {"strain", Reduction::latest, Shown::always, "shear strain, integral of L_xy"},
+    {"eps_xx", Reduction::latest, Shown::always, "strain of the cell along x, - integral of L_xx: > 0 in compression"},
+    {"eps_yy", Reduction::latest, Shown::always, "strain of the cell along y"},
+    {"eps_zz", Reduction::latest, Shown::in_3d, "strain of the cell along z"},
+    {"eps_v", Reduction::latest, Shown::always, "volume strain, ln(volume at the start / volume): > 0 in compression"},
     {"sigma_xx", Reduction::mean, Shown::always, "stress, positive in compression"},
     {"sigma_yy", Reduction::mean, Shown::always, "stress"},
     {"sigma_zz", Reduction::mean, Shown::in_3d, "stress"},

@@ -8,8 +8,12 @@ namespace {
 constexpr double bite_seconds = 0.2, report_seconds = 0.2, copy_seconds = 1;
 }
 
-Pace::Pace(const RunControl& control, long step, long steps)
-    : control_(control), first_step_(step), steps_(steps), step_(step) {}
+Pace::Pace(const RunControl& control, long step) : control_(control), first_step_(step), step_(step) {}
+
+void Pace::start_stage(std::string_view name, long first, long last) {
+  name_ = name;
+  stage_first_ = first, stage_last_ = last;
+}
 
 long Pace::bite() const {
   const double elapsed = wall_seconds() - start_;
@@ -22,10 +26,10 @@ void Pace::reached(long step) {
   const double now = wall_seconds();
   if (!control_.progress || now - reported_ < report_seconds) return;
   reported_ = now;
-  Progress progress{control_.stage, step, steps_, 0, 0};
+  Progress progress{name_, step - stage_first_, stage_last_ - stage_first_, 0, 0};
   if (now > start_) progress.steps_per_second = static_cast<double>(step - first_step_) / (now - start_);
   if (progress.steps_per_second > 0)
-    progress.seconds_left = static_cast<double>(steps_ - step) / progress.steps_per_second;
+    progress.seconds_left = static_cast<double>(stage_last_ - step) / progress.steps_per_second;
   control_.progress(progress);
 }
 

@@ -9,7 +9,10 @@ namespace galet {
 
 class Pace {
  public:
-  Pace(const RunControl& control, long step, long steps);
+  Pace(const RunControl& control, long step);
+
+  /// Progress counts from now on the steps from `first` to `last`, under that name.
+  void start_stage(std::string_view name, long first, long last);
 
   /// Steps that take about a fifth of a second.
   long bite() const;
@@ -21,7 +24,9 @@ class Pace {
 
  private:
   const RunControl& control_;
-  long first_step_, steps_, step_;
+  std::string_view name_;
+  long first_step_, step_;
+  long stage_first_ = 0, stage_last_ = 0;
   double start_ = wall_seconds();
   double reported_ = 0, saved_ = start_, copied_ = 0;
 };

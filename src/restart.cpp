@@ -72,6 +72,56 @@ Scene stored_scene(const Archive& archive, const std::vector<Override>& more) {
   return scene;
 }
 
+namespace {
+
+[[noreturn]] void refuse_contacts(const std::string& why) {
+  throw InputError("initial.file: the checkpoint's contacts can't be kept: " + why +
+                   "; set initial.contacts = \"fresh\" to take over only its grains and cell");
+}
+
+/// The columns that belong to the grains and to what their contacts remember, and not to the loading or the clock.
+bool kept(const std::string& name) {
+  if (name == "md.acceleration.modes") return false;
+  for (const char* start : {"grains.", "contacts.", "neighbours.", "md.acceleration.", "md.acceleration_expected."})
+    if (name.starts_with(start)) return true;
+  return name == "md.list_age" || name == "cell.box" || name == "cell.rate";
+}
+
+template <class Columns>
+void take_kept(Columns& fresh, const Columns& state) {
+  for (const auto& [name, column] : state)
+    if (kept(name) && !fresh.contains(name)) refuse_contacts("they are of other laws (column '" + name + "')");
+  for (auto& [name, column] : fresh) {
+    if (!kept(name)) continue;
+    const auto found = state.find(name);
+    if (found == state.end()) refuse_contacts("they are of other laws (no column '" + name + "')");
+    column = found->second;
+  }
+}
+
+}  // namespace
+
+Archive with_contacts_of(Archive fresh, EngineKind kind, const Archive& state) {
+  if (stored_engine(state) != kind)
+    refuse_contacts("they are of engine " + engine_name(stored_engine(state)) + ", the run is of engine " +
+                    engine_name(kind));
+  if (integer_column(state, "layout") != integer_column(fresh, "layout"))
+    refuse_contacts("they are of materials with other friction or rolling resistance (another layout)");
+  if (real_column(state, "planes.point").size() != real_column(fresh, "planes.point").size())
+    refuse_contacts("the scene has another number of planes");
+  if (real_column(state, "neighbours.reference").at(0) != real_column(fresh, "neighbours.reference").at(0))
+    refuse_contacts("the scene has another cohesion range");
+  take_kept(fresh.reals, state.reals);
+  take_kept(fresh.integers, state.integers);
+  if (kind == EngineKind::cd) {
+    // The impulses belong to the length of the last step.
+    std::vector<double>& numbers = fresh.reals.at("cd.numbers");
+    const std::vector<double>& stored = real_column(state, "cd.numbers");
+    numbers.at(1) = stored.at(1), numbers.at(2) = stored.at(2);
+  }
+  return fresh;
+}
+
 template <int D>
 void save_sample(Archive& archive, const Sample<D>& sample) {
   put_matrix<D>(archive, "sample.box", sample.cell.box);

@@ -25,6 +25,11 @@ EngineKind stored_engine(const Archive& archive);
 /// has no scene text.
 Scene stored_scene(const Archive& archive, const std::vector<Override>& more = {});
 
+/// `fresh`, the state of an engine that has just been started at the grains of the checkpoint `state`, with the
+/// contacts of that checkpoint and what they remember. Throws InputError when they are of another engine or of other
+/// laws.
+Archive with_contacts_of(Archive fresh, EngineKind kind, const Archive& state);
+
 template <int D>
 void save_sample(Archive& archive, const Sample<D>& sample);
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "common/core/archive.hpp"
@@ -11,7 +12,7 @@
 namespace galet {
 
 struct Progress {
-  std::string_view stage;  ///< "run", or "compression" of the gas that the run starts from
+  std::string_view stage;  ///< its name; "run" without stages, "compression" of the gas that the run starts from
   long step = 0;
   long steps = 0;  ///< of the stage; an upper bound when it may stop at equilibrium
   double steps_per_second = 0;
@@ -19,10 +20,12 @@ struct Progress {
 };
 
 struct RunControl {
-  std::string_view stage = "run";                  ///< what progress calls it
+  std::string_view stage = "run";                  ///< what progress calls a run without stages
   std::function<void(const Progress&)> progress;   ///< called several times per second at most
   std::function<bool()> stop;                      ///< true: stop after the current steps (a fraction of a second)
   std::function<void(const Archive&)> checkpoint;  ///< called every `checkpoint_every` seconds of wall time
+  /// Of a scene with stages: called at the end of each one with its number (from 1), its name and the state.
+  std::function<void(int, const std::string&, const Archive&)> stage_end;
   double checkpoint_every = std::numeric_limits<double>::infinity();
   long most_steps = std::numeric_limits<long>::max();  ///< stop after so many steps (of the run proper)
   bool keep_last_good = true;                          ///< keep a copy of the state in memory, for RunResult::last_good

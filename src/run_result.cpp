@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;  // keeps the order in which keys are writt
 
 bool averaged(int k, int dimension) {
   const auto observable = static_cast<Observable>(k);
-  // Sums since the start have no mean: the budget is shown by itself.
-  return observable != Observable::time && observable != Observable::strain && shown(observable, dimension, false);
+  // Time, strains and other sums since the start have no mean; the budget is shown by itself.
+  return info(observable).reduction != Reduction::latest && shown(observable, dimension, false);
 }
 
 Json averages_json(const RunResult& result) {
@@ -29,11 +29,22 @@ Json averages_json(const RunResult& result) {
   return json;
 }
 
-Json last_json(const RunResult& result) {
+Json sample_json(const RunResult& result, const Measurement& sample) {
   Json json;
   for (int k = 0; k < observable_count; ++k)
     if (shown(static_cast<Observable>(k), result.layout.dim, result.series.budget))
-      json[std::string(observable_table[k].name)] = result.last.values[k];
+      json[std::string(observable_table[k].name)] = sample.values[k];
+  return json;
+}
+
+Json stages_json(const RunResult& result) {
+  Json json = Json::array();
+  for (const StageReport& stage : result.stages)
+    json.push_back({{"name", stage.name},
+                    {"ending", to_string(stage.ending)},
+                    {"time", stage.time},
+                    {"steps", stage.steps},
+                    {"last", sample_json(result, stage.last)}});
   return json;
 }
 
@@ -71,6 +82,8 @@ std::string to_string(Ending ending) {
       return "finished";
     case Ending::equilibrium:
       return "equilibrium";
+    case Ending::reached:
+      return "reached";
     case Ending::interrupted:
       return "interrupted";
     case Ending::failed:
@@ -91,7 +104,8 @@ std::string to_json(const RunResult& result, const std::string& scene) {
             {"strain", result.strain}};
   if (!result.failure.empty()) json["failure"] = result.failure;
   json["averages"] = averages_json(result);
-  json["last"] = last_json(result);
+  json["last"] = sample_json(result, result.last);
+  if (!result.stages.empty()) json["stages"] = stages_json(result);
   json["compression"] = compression_json(result.compression);
   json["solver"] = solver_json(result.solver);
   json["seconds"] = result.cpu_seconds;
@@ -132,11 +146,36 @@ std::string solver_text(const SolverSummary& solver) {
       solver.divided > 0 ? fmt::format("; {} steps taken in parts", solver.divided) : "");
 }
 
+/// One line per stage: how it ended, and where it left the sample.
+std::string stages_text(const RunResult& result) {
+  if (result.stages.empty()) return "";
+  const bool space = result.layout.dim == 3;
+  std::vector<std::string> header{"stage", "ending", "time", "eps_xx", "eps_yy"};
+  if (space) header.emplace_back("eps_zz");
+  header.insert(header.end(), {"strain xy", "sigma_xx", "sigma_yy"});
+  if (space) header.emplace_back("sigma_zz");
+  header.insert(header.end(), {"sigma_xy", "Phi", "z_star"});
+  TextTable table(header);
+  for (const StageReport& stage : result.stages) {
+    std::vector<std::string> row{stage.name, to_string(stage.ending), short_number(stage.time)};
+    const auto add = [&](Observable observable) { row.push_back(short_number(stage.last[observable])); };
+    add(Observable::eps_xx), add(Observable::eps_yy);
+    if (space) add(Observable::eps_zz);
+    add(Observable::strain), add(Observable::sigma_xx), add(Observable::sigma_yy);
+    if (space) add(Observable::sigma_zz);
+    add(Observable::sigma_xy), add(Observable::solid_fraction), add(Observable::z_star);
+    table.add(row);
+  }
+  return table.text("  ");
+}
+
 }  // namespace
 
 std::string summary(const RunResult& result) {
   std::string text = fmt::format("{}: {} of {} steps, dt = {:g}, time {:g}, strain {:g}\n", to_string(result.ending),
                                  result.steps, result.total_steps, result.dt, result.time, result.strain);
+  if (!result.stage.empty()) text.insert(text.find(':'), " in " + result.stage);
+  text += stages_text(result);
   if (result.averages.rows > 0) {
     TextTable table({"quantity", fmt::format("mean from time {:g} on", result.averages.from), "last"});
     for (int k = 0; k < observable_count; ++k) {

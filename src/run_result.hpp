@@ -20,25 +20,37 @@ namespace galet {
 enum class Ending {
   finished,     ///< the whole duration was run
   equilibrium,  ///< the equilibrium that the scene asks for was reached before
+  reached,      ///< the stress or strain that the scene asks for (run.until) was reached before
   interrupted,  ///< the caller stopped it; it can be resumed
   failed        ///< the engine found its state unsound; `failure` says where
 };
 
 std::string to_string(Ending ending);
 
+/// How a stage went.
+struct StageReport {
+  std::string name;
+  Ending ending = Ending::finished;
+  double time = 0;   ///< at its end, since the start of the run
+  long steps = 0;    ///< in the stage
+  Measurement last;  ///< the latest single sample of the stage
+};
+
 struct RunResult {
   EngineKind engine = EngineKind::md;
   Layout layout{2, false};
   Ending ending = Ending::finished;
-  std::string failure;             ///< failed: what the engine said
-  std::vector<std::string> notes;  ///< what a user should know, one sentence each
+  std::string failure;              ///< failed: what the engine said
+  std::vector<std::string> notes;   ///< what a user should know, one sentence each
+  std::string stage;                ///< of a scene with stages: the one that it ended in
+  std::vector<StageReport> stages;  ///< of a scene with stages: those that it went through, the last one included
   double dt = 0;
   double time = 0;
   double strain = 0;
   long steps = 0;
   long total_steps = 0;
   TimeSeries series;
-  Averages averages;  ///< from run.average_from on
+  Averages averages;  ///< of the last stage, from run.average_from on
   Measurement last;   ///< the latest single sample
   SolverSummary solver;
   double cpu_seconds = 0;   ///< of the calling thread, in steps only: measures and files don't count

@@ -7,7 +7,9 @@
 
 #include "common/core/clock.hpp"
 #include "common/core/error.hpp"
+#include "common/io/checkpoint_sample.hpp"
 #include "common/scene/packing.hpp"
+#include "common/scene/stages.hpp"
 #include "src/engines.hpp"
 #include "src/restart.hpp"
 
@@ -36,6 +38,12 @@ long sample_interval(EngineKind kind, const Derived& derived, double dt) {
   return std::max(1L, std::lround(0.5 * *derived.collision_time / dt));
 }
 
+bool asked_for_equilibrium(const Scene& scene, const std::string& name) {
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    if (stage_name(scene, k) == name) return scene.stages[k].equilibrium || scene.stages[k].unbalanced;
+  return false;
+}
+
 }  // namespace
 
 // ---- Construction ----
@@ -48,12 +56,12 @@ Simulation<D>::Simulation(const Scene& scene, EngineKind kind, std::vector<Overr
   if (scene_.initial.kind == InitialKind::compressed_gas)
     compression_ = std::make_unique<Simulation>(compression_scene(scene_, derived_), kind_, sample);
   else
-    start_run(sample);
+    start_run(sample, 0), take_over_checkpoint();
 }
 
 template <int D>
 Simulation<D>::Simulation(const Scene& scene, EngineKind kind, const Sample<D>& start) : scene_(scene), kind_(kind) {
-  start_run(start);
+  start_run(start, 0);
 }
 
 template <int D>
@@ -65,7 +73,7 @@ Simulation<D>::Simulation(const Scene& scene, EngineKind kind, std::vector<Overr
   if (compressing && scene_.initial.kind == InitialKind::compressed_gas) {
     compression_.reset(new Simulation(compression_scene(scene_, derived_), kind_, {}, archive));
   } else {
-    start_run(sample);
+    start_run(sample, StageCourse<D>::stage_in(archive));
     restore(archive);
   }
 }
@@ -77,18 +85,46 @@ Simulation<D> Simulation<D>::resume(const Scene& scene, const Archive& archive, 
   return Simulation(scene, stored_engine(archive), std::move(overrides), archive);
 }
 
+/// The engine of the stage, at the start of the run (a restart brings it to the state of its checkpoint).
 template <int D>
-void Simulation<D>::start_run(const Sample<D>& start) {
+void Simulation<D>::start_run(const Sample<D>& start, std::size_t stage) {
   start_ = start;
-  derived_ = derive(scene_, grain_facts(scene_, start_));
-  engine_ = make_engine<D>(kind_, scene_, derived_, start_);
-  if (scene_.run.equilibrium) equilibrium_.emplace(scene_, derived_, start_, *scene_.run.equilibrium);
-  scale_ = measure_scale(derived_, kind_ == EngineKind::cd);
-  scale_.energy_at_start = engine_->energy().total();
-  total_steps_ = steps_for(derived_.duration, engine_->dt());
-  schedule_ = make_schedule(total_steps_, scene_.run.samples, sample_interval(kind_, derived_, engine_->dt()));
+  const GrainFacts facts = grain_facts(scene_, start_);
+  derived_ = derive(scene_, facts);
+  course_ = StageCourse<D>(scene_, facts, stage);
+  engine_ = make_engine<D>(kind_, course_.scene(), course_.derived(), start_);
+  begin_course();
   series_.dimension = D;
   series_.budget = kind_ == EngineKind::md && scene_.md.energy_budget;
+}
+
+template <int D>
+void Simulation<D>::begin_course() {
+  scale_.energy_at_start = engine_->energy().total();
+  course_.begin(*engine_);
+  start_stage();
+}
+
+/// What the contacts of another run's checkpoint remember, if the scene starts from one.
+template <int D>
+void Simulation<D>::take_over_checkpoint() {
+  if (scene_.initial.kind != InitialKind::checkpoint || scene_.initial.fresh_contacts) return;
+  Archive fresh;
+  engine_->save(fresh);
+  engine_->restore(with_contacts_of(std::move(fresh), kind_, initial_checkpoint(scene_)));
+  engine_->change(course_.scene(), course_.derived());
+  begin_course();
+}
+
+/// What belongs to a stage and not to its engine's state.
+template <int D>
+void Simulation<D>::start_stage() {
+  const double energy_at_start = scale_.energy_at_start;
+  scale_ = measure_scale(course_.derived(), kind_ == EngineKind::cd);
+  scale_.energy_at_start = energy_at_start;
+  schedule_ = make_schedule(course_.last_step() - course_.first_step(), scene_.run.samples,
+                            sample_interval(kind_, course_.derived(), engine_->dt()));
+  samples_ = 0;
 }
 
 // ---- Checkpoints ----
@@ -110,7 +146,8 @@ Archive Simulation<D>::checkpoint() const {
   series_.save(archive);
   row_.save(archive);
   archive.reals["run.last"].assign(last_.values.begin(), last_.values.end());
-  archive.integers["run.settled"] = {settled_};
+  course_.save(archive);
+  archive.reals["run.energy_at_start"] = {scale_.energy_at_start};
   archive.reals["run.seconds"] = {cpu_seconds_, wall_seconds_};
   return archive;
 }
@@ -118,17 +155,18 @@ Archive Simulation<D>::checkpoint() const {
 template <int D>
 void Simulation<D>::restore(const Archive& archive) {
   engine_->restore(archive);
-  if (engine_->steps() > total_steps_)
+  course_.restore(archive);
+  if (engine_->steps() > course_.last_step())
     throw InputError(fmt::format("the checkpoint is at time {:g}, beyond the end of the run at {:g}: lengthen run.{}",
                                  engine_->time(), derived_.duration, scene_.run.strain ? "strain" : "duration"));
   compression_report_ = stored_report(archive);
   schedule_.restore(archive);
-  samples_ = schedule_.samples_until(engine_->steps());
+  samples_ = schedule_.samples_until(engine_->steps() - course_.first_step());
   series_.restore(archive);
   row_.restore(archive);
   const auto& last = real_column(archive, "run.last");
   std::copy_n(last.begin(), std::min<std::size_t>(last.size(), observable_count), last_.values.begin());
-  settled_ = integer_column(archive, "run.settled").at(0);
+  scale_.energy_at_start = real_column(archive, "run.energy_at_start").at(0);
   const auto& seconds = real_column(archive, "run.seconds");
   cpu_seconds_ = seconds.at(0), wall_seconds_ = seconds.at(1);
 }
@@ -157,6 +195,7 @@ template <int D>
 Sample<D> Simulation<D>::rest_sample() {
   Sample<D> sample = present_sample();
   sample.cell.rate.setZero();
+  sample.cell.strain.setZero();
   std::fill(sample.velocity.begin(), sample.velocity.end(), Vec<D>::Zero());
   std::fill(sample.spin.begin(), sample.spin.end(), zero_spin<D>());
   return sample;
@@ -197,7 +236,7 @@ bool Simulation<D>::settle(const RunResult& gas, RunResult& result) {
                                           gas.last[Observable::z],
                                           gas.ending == Ending::equilibrium,
                                           gas.cpu_seconds};
-  start_run(compression_->rest_sample());
+  start_run(compression_->rest_sample(), 0);
   compression_.reset();
   return true;
 }
@@ -208,13 +247,14 @@ template <int D>
 RunResult Simulation<D>::run(const RunControl& control) {
   RunResult result;
   if (!prepare(control, result)) return result;
-  Pace pace(control, engine_->steps(), total_steps_);
+  Pace pace(control, engine_->steps());
   try {
     if (control.keep_last_good && pace.copy_due()) last_good_ = checkpoint();
     result.ending = loop(control, pace);
   } catch (const RunError& error) {
     result.ending = Ending::failed;
     result.failure = error.what();
+    if (!scene_.stages.empty()) result.failure = fmt::format("in {}: {}", course_.name(), result.failure);
     result.last_good = std::move(last_good_);
   }
   report(result);
@@ -223,17 +263,51 @@ RunResult Simulation<D>::run(const RunControl& control) {
 
 template <int D>
 Ending Simulation<D>::loop(const RunControl& control, Pace& pace) {
-  const long allowed = std::min(total_steps_ - engine_->steps(), control.most_steps);
+  const long allowed = std::min(course_.total_steps() - engine_->steps(), control.most_steps);
   const long last = engine_->steps() + std::max(0L, allowed);
-  while (engine_->steps() < last) {
-    const long sample_step = schedule_.step_of(samples_ + 1);
-    take_steps(std::min({sample_step - engine_->steps(), last - engine_->steps(), pace.bite()}));
-    pace.reached(engine_->steps());
-    if (engine_->steps() == sample_step && take_sample(pace)) return Ending::equilibrium;
-    if (pace.checkpoint_due()) control.checkpoint(checkpoint());
-    if (control.stop && engine_->steps() < total_steps_ && control.stop()) return Ending::interrupted;
+  for (;;) {
+    if (course_.ended()) {
+      course_.next(*engine_);
+      start_stage();
+    }
+    const Ending ending = run_stage(control, pace, last);
+    if (ending == Ending::interrupted) return ending;
+    const bool over = course_.is_last();
+    finish_stage(ending, control);
+    if (over) return ending;
   }
-  return engine_->steps() < total_steps_ ? Ending::interrupted : Ending::finished;
+}
+
+/// To the end of the present stage, or to the step `last`.
+template <int D>
+Ending Simulation<D>::run_stage(const RunControl& control, Pace& pace, long last) {
+  const long end = std::min(course_.last_step(), last);
+  pace.start_stage(scene_.stages.empty() ? control.stage : std::string_view(course_.name()), course_.first_step(),
+                   course_.last_step());
+  while (engine_->steps() < end) {
+    const long now = engine_->steps(), sample_step = course_.first_step() + schedule_.step_of(samples_ + 1);
+    take_steps(std::min({sample_step - now, end - now, course_.next_turn() - now, pace.bite()}));
+    pace.reached(engine_->steps());
+    course_.turn(*engine_);
+    if (engine_->steps() == sample_step)
+      if (const std::optional<Ending> ending = take_sample(pace)) return *ending;
+    if (pace.checkpoint_due()) control.checkpoint(checkpoint());
+    const bool going_on = engine_->steps() < course_.last_step() || !course_.is_last();
+    if (control.stop && going_on && control.stop()) return Ending::interrupted;
+  }
+  return engine_->steps() < course_.last_step() ? Ending::interrupted : Ending::finished;
+}
+
+/// A stage that another one follows is closed: its last row, its report. Each stage hands out its state.
+template <int D>
+void Simulation<D>::finish_stage(Ending ending, const RunControl& control) {
+  if (!course_.is_last()) {
+    if (row_.samples() > 0) series_.rows.push_back(row_.finish(scale_));
+    course_.end(ending, last_, *engine_);
+  }
+  if (scene_.stages.empty() || !control.stage_end) return;
+  const int number = static_cast<int>(course_.reports().size()) + (course_.is_last() ? 1 : 0);
+  control.stage_end(number, course_.name(), checkpoint());
 }
 
 template <int D>
@@ -244,9 +318,9 @@ void Simulation<D>::take_steps(long count) {
   cpu_seconds_ += thread_seconds() - cpu;
 }
 
-/// True when the samples have shown, for one inertial time, the equilibrium that the scene asks for.
+/// The ending, when the samples have shown what the stage waits for.
 template <int D>
-bool Simulation<D>::take_sample(Pace& pace) {
+std::optional<Ending> Simulation<D>::take_sample(Pace& pace) {
   last_ = measure(*engine_, scale_);
   ++samples_;
   row_.add(last_);
@@ -254,10 +328,8 @@ bool Simulation<D>::take_sample(Pace& pace) {
     series_.rows.push_back(row_.finish(scale_));
     if (pace.copy_due()) last_good_ = checkpoint();
   }
-  if (!equilibrium_) return false;
-  settled_ = equilibrium_->reached(last_, engine_->snapshot()) ? settled_ + 1 : 0;
   const double interval = schedule_.steps_per_sample * engine_->dt();
-  return static_cast<double>(settled_) * interval >= *derived_.inertial_time;
+  return course_.look(last_, engine_->snapshot(), interval);
 }
 
 // ---- What is handed back ----
@@ -268,14 +340,20 @@ void Simulation<D>::report(RunResult& result) const {
   result.layout = engine_->layout();
   result.dt = engine_->dt();
   result.time = engine_->time();
-  result.strain = scale_.shear_rate * engine_->time();
+  result.strain = engine_->snapshot().cell->strain(0, 1);
   result.steps = engine_->steps();
-  result.total_steps = total_steps_;
+  result.total_steps = course_.total_steps();
   result.series = series_;
-  const bool ended = result.ending == Ending::finished || result.ending == Ending::equilibrium;
+  const bool ended = result.ending != Ending::interrupted && result.ending != Ending::failed;
   // The samples since the last row are shown as a row, and kept as samples: a run that is lengthened completes it.
   if (RowAverager rest = row_; ended && rest.samples() > 0) result.series.rows.push_back(rest.finish(scale_));
-  result.averages = averages(result.series, scale_, scene_.run.average_from);
+  if (!scene_.stages.empty()) {
+    result.stage = course_.name();
+    result.stages = course_.reports();
+    if (ended) result.stages.push_back(course_.report(result.ending, last_, *engine_));
+  }
+  const double stage_start = static_cast<double>(course_.first_step()) * engine_->dt();
+  result.averages = averages(result.series, scale_, scene_.run.average_from, stage_start);
   result.last = last_;
   result.solver = engine_->solver_summary();
   result.cpu_seconds = cpu_seconds_;
@@ -303,13 +381,15 @@ std::optional<std::string> Simulation<D>::compression_note() const {
 template <int D>
 void Simulation<D>::add_notes(RunResult& result) const {
   if (const auto note = compression_note()) result.notes.push_back(*note);
-  if (equilibrium_ && result.ending == Ending::finished)
-    result.notes.push_back(
-        fmt::format("the run ended before equilibrium: kinetic energy per grain of the backbone {:.2g} P d^D (asked: "
-                    "below {:.2g}), "
-                    "stress {}",
-                    equilibrium_->backbone_energy(engine_->snapshot()), *scene_.run.equilibrium,
-                    equilibrium_->balanced(last_) ? "within 1 %" : "off by more than 1 %"));
+  for (const StageReport& stage : course_.reports())
+    if (stage.ending == Ending::finished && asked_for_equilibrium(scene_, stage.name))
+      result.notes.push_back(fmt::format("{} ended at its limit of time, before equilibrium", stage.name));
+  if (const auto& test = course_.equilibrium(); test && result.ending == Ending::finished)
+    result.notes.push_back(fmt::format(
+        "the run ended before equilibrium: kinetic energy per grain of the backbone {:.2g} P d^D, unbalanced force "
+        "ratio {:.2g}, stress {} {:g} %",
+        test->backbone_energy(engine_->snapshot()), test->unbalanced(engine_->snapshot()),
+        test->balanced(last_) ? "within" : "off by more than", 100 * test->stress_tolerance()));
   if (result.solver.missed > 0)
     result.notes.push_back(
         fmt::format("the contact solver missed its tolerance in {} of {} steps (worst residual {:.2g}): raise "

@@ -7,6 +7,9 @@
 // run first by the same engine; the run proper starts from its grains, at rest. (Tangential forces of the stage are
 // not taken over: the run starts with fresh contacts.)
 //
+// A scene with [[stage]] entries runs them one after the other with one engine (stage_course.hpp); a scene without is
+// one stage.
+//
 // A run can be stopped after any step and resumed from its checkpoint; state, series and averages are then the same,
 // bit for bit, as those of a run that was never stopped.
 #pragma once
@@ -21,11 +24,11 @@
 #include "common/scene/derive.hpp"
 #include "common/scene/sample.hpp"
 #include "common/scene/scene.hpp"
-#include "src/equilibrium.hpp"
 #include "src/pace.hpp"
 #include "src/run_control.hpp"
 #include "src/run_result.hpp"
 #include "src/schedule.hpp"
+#include "src/stage_course.hpp"
 #include "src/time_series.hpp"
 
 namespace galet {
@@ -66,12 +69,17 @@ class Simulation {
  private:
   Simulation(const Scene& scene, EngineKind kind, std::vector<Override> overrides, const Archive& archive);
 
-  void start_run(const Sample<D>& start);
+  void start_run(const Sample<D>& start, std::size_t stage);
+  void begin_course();
+  void take_over_checkpoint();
+  void start_stage();
+  void finish_stage(Ending ending, const RunControl& control);
   void restore(const Archive& archive);
   bool settle(const RunResult& gas, RunResult& result);
   Ending loop(const RunControl& control, Pace& pace);
+  Ending run_stage(const RunControl& control, Pace& pace, long last);
   void take_steps(long count);
-  bool take_sample(Pace& pace);
+  std::optional<Ending> take_sample(Pace& pace);
   void report(RunResult& result) const;
   void add_notes(RunResult& result) const;
 
@@ -84,12 +92,10 @@ class Simulation {
 
   Sample<D> start_;  ///< what the engine was built from
   std::unique_ptr<Engine<D>> engine_;
-  std::optional<EquilibriumTest<D>> equilibrium_;
+  StageCourse<D> course_;
   MeasureScale scale_;
-  Schedule schedule_;
-  long total_steps_ = 0;
-  long samples_ = 0;
-  long settled_ = 0;  ///< of the latest samples, how many in a row showed equilibrium
+  Schedule schedule_;  ///< of the present stage
+  long samples_ = 0;   ///< in the present stage
   RowAverager row_;
   TimeSeries series_;
   Measurement last_;

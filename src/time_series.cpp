@@ -112,11 +112,13 @@ void average_derived(Averages& result, const TimeSeries& series, const MeasureSc
 
 }  // namespace
 
-Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from) {
+Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from, double start) {
   Averages result;
-  if (series.rows.empty()) return result;
+  result.from = start;
+  // A part of the run that has only begun has no rows yet.
+  if (series.rows.empty() || !(series.rows.back()[Observable::time] > start)) return result;
   require(average_from >= 0 && average_from < 1, "averages start at a fraction of the run below 1");
-  result.from = average_from * series.rows.back()[Observable::time];
+  result.from = start + average_from * (series.rows.back()[Observable::time] - start);
   for (int k = 0; k < observable_count; ++k) {
     const std::vector<double> values = series.column(static_cast<Observable>(k), result.from);
     result.rows = static_cast<int>(values.size());

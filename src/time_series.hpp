@@ -50,10 +50,10 @@ struct Averages {
   const Estimate& operator[](Observable observable) const { return values[static_cast<int>(observable)]; }
 };
 
-/// Takes the last part of the series, from the fraction `average_from` of its time on. What follows from the stress
-/// (mu*, pressure, I, kappa) is computed from the mean stress: means of ratios are biased by fluctuations of sigma_yy.
-/// peak_overlap is the largest, not a mean.
-Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from);
+/// Takes the last part of the series, from the fraction `average_from` of its time (after `start`) on. What follows
+/// from the stress (mu*, pressure, I, kappa) is computed from the mean stress: means of ratios are biased by
+/// fluctuations of sigma_yy. peak_overlap is the largest, not a mean.
+Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from, double start = 0);
 
 /// Mean of |numerator| over mean of denominator, with the error of the ratio: the block average of
 /// (n - R d) / <d>. Assumes one sign of the numerator's mean; NaN when <d> is not positive.

@@ -72,6 +72,25 @@ struct Bodies {
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
   }
 
+  /// Another loading from now on: new modes and gravity. Components driven in stress keep the rate that they have.
+  void change_loading(const Scene& scene, const Derived& derived) {
+    const Mat<D> rate = cell.rate;
+    double total = 0;
+    for (const double m : mass) total += m;
+    modes = cell_modes<D>(scene, derived, total, cell.volume());
+    for (CellMode<D>& mode : modes)
+      if (mode.stress_driven) mode.rate = rate.cwiseProduct(mode.direction).sum() / mode.direction.squaredNorm();
+    cell.rate = velocity_gradient(modes);
+    gravity.setZero();
+    for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
+  }
+
+  /// Targets that change with time.
+  void advance_loads(double dt) {
+    for (CellMode<D>& mode : modes)
+      if (mode.load_rate != 0) mode.load += dt * mode.load_rate;
+  }
+
   /// Velocities, spins and arms of the grains of rigid bodies from these. Positions are follow()'s.
   void follow_velocities() {
     for (std::size_t b = 0; b < rigid.body.size(); ++b) {
@@ -155,10 +174,11 @@ struct Bodies {
     box.assign(cell.box.data(), cell.box.data() + D * D);
     std::vector<double>& rate = archive.reals["cell.rate"];
     rate.assign(cell.rate.data(), cell.rate.data() + D * D);
+    archive.reals["cell.strain"].assign(cell.strain.data(), cell.strain.data() + D * D);
     std::vector<double>& mode_columns = archive.reals["cell.modes"];
     mode_columns.clear();
     for (const CellMode<D>& mode : modes) {
-      mode_columns.insert(mode_columns.end(), {mode.rate, mode.load, mode.inertia});
+      mode_columns.insert(mode_columns.end(), {mode.rate, mode.load, mode.load_rate, mode.inertia});
     }
     std::vector<double>& points = archive.reals["planes.point"];
     std::vector<double>& velocities = archive.reals["planes.velocity"];
@@ -184,10 +204,13 @@ struct Bodies {
     cell.box = Eigen::Map<const Mat<D>>(numbers.data());
     take_column(archive, "cell.rate", numbers);
     cell.rate = Eigen::Map<const Mat<D>>(numbers.data());
-    numbers.resize(3 * modes.size());
+    take_column(archive, "cell.strain", numbers);
+    cell.strain = Eigen::Map<const Mat<D>>(numbers.data());
+    numbers.resize(4 * modes.size());
     take_column(archive, "cell.modes", numbers);
     for (std::size_t k = 0; k < modes.size(); ++k) {
-      modes[k].rate = numbers[3 * k], modes[k].load = numbers[3 * k + 1], modes[k].inertia = numbers[3 * k + 2];
+      const double* from = numbers.data() + 4 * k;
+      modes[k].rate = from[0], modes[k].load = from[1], modes[k].load_rate = from[2], modes[k].inertia = from[3];
     }
     numbers.resize(D * planes.size());
     take_column(archive, "planes.point", numbers);

@@ -16,6 +16,8 @@ struct Cell {
   Mat<D> box = Mat<D>::Identity();
   Mat<D> rate = Mat<D>::Zero();    ///< velocity gradient L
   std::array<bool, D> periodic{};  ///< per cell vector; without periodicity the vector only bounds the volume
+  Mat<D> strain =
+      Mat<D>::Zero();  ///< integral of L since the start of the run: logarithmic strains, < 0 in compression
 
   double volume() const { return box.determinant(); }
   bool any_periodic() const {
@@ -26,7 +28,8 @@ struct Cell {
 };
 
 /// One degree of freedom q of the cell: it contributes q * direction to L. Driven in rate (q given) or in stress:
-///   inertia dq/dt = V (sigma : direction) - V load,   load = Sigma : direction for the target stress Sigma.
+///   inertia dq/dt = V (sigma : direction) - V load,   load = Sigma : direction for the target stress Sigma,
+/// which changes with time by d(load)/dt = load_rate.
 /// Units: inertia mass * length^2, q 1/time, load a pressure.
 template <int D>
 struct CellMode {
@@ -34,7 +37,8 @@ struct CellMode {
   bool stress_driven = false;
   double load = 0;
   double inertia = 0;
-  double rate = 0;  ///< q
+  double rate = 0;       ///< q
+  double load_rate = 0;  ///< d(load)/dt
 };
 
 /// L as the sum of the modes.

@@ -48,7 +48,7 @@ class SceneReader {
   // `section` is the table's name in the field table, `path` its name in this file: "drive" and "drive[0]".
   void read_table(const TreeNode& table, const std::string& section, const std::string& path);
   void read_entry(const TreeEntry& entry, const std::string& section, const std::string& path);
-  void read_list(const TreeEntry& entry, const SceneSection& section);
+  void read_list(const TreeEntry& entry, const SceneSection& section, const std::string& here);
   void read_value(const SceneField& field, const TreeNode& node, const std::string& path);
   void require_fields(const TreeNode& table, const std::string& section, const std::string& path);
   void refuse_unknown(const TreeEntry& entry, const std::string& section, const std::string& path);
@@ -87,7 +87,7 @@ void SceneReader::read_entry(const TreeEntry& entry, const std::string& section,
   const SceneField* field = find_field(name);
   if (table == nullptr && field == nullptr) return refuse_unknown(entry, section, path);
   places_[here] = entry.node.place;
-  if (table != nullptr && table->list) return read_list(entry, *table);
+  if (table != nullptr && table->list) return read_list(entry, *table, here);
   if (table != nullptr && entry.node.table() != nullptr) return read_table(entry.node, name, here);
   if (field != nullptr) return read_value(*field, entry.node, here);
   const bool list = entry.node.list() != nullptr;
@@ -96,15 +96,15 @@ void SceneReader::read_entry(const TreeEntry& entry, const std::string& section,
                      list ? "a list: write it once, with single brackets" : shown(entry.node)));
 }
 
-void SceneReader::read_list(const TreeEntry& entry, const SceneSection& section) {
+void SceneReader::read_list(const TreeEntry& entry, const SceneSection& section, const std::string& here) {
   const auto* items = entry.node.list();
   if (items == nullptr)
-    return refuse(entry.key_place, section.name,
-                  fmt::format("{}: expected [[{}]] entries, got {}: write [[{}]] with double brackets", section.name,
+    return refuse(entry.key_place, here,
+                  fmt::format("{}: expected [[{}]] entries, got {}: write [[{}]] with double brackets", here,
                               section.name, shown(entry.node), section.name));
   for (std::size_t k = 0; k < items->size(); ++k) {
     const TreeNode& item = (*items)[k];
-    const std::string path = fmt::format("{}[{}]", section.name, k);
+    const std::string path = fmt::format("{}[{}]", here, k);
     places_[path] = item.place;
     section.append(scene_);
     if (item.table() != nullptr)
@@ -195,8 +195,9 @@ bool names_field(const std::vector<Finding>& findings, const std::string& path) 
   return std::any_of(findings.begin(), findings.end(), [&path](const Finding& found) { return found.path == path; });
 }
 
-std::vector<Finding> check_packing_file(const Scene& scene) {
-  if (scene.initial.kind != InitialKind::packing || scene.initial.file.empty()) return {};
+std::vector<Finding> check_initial_file(const Scene& scene) {
+  const bool from_file = scene.initial.kind == InitialKind::packing || scene.initial.kind == InitialKind::checkpoint;
+  if (!from_file || scene.initial.file.empty()) return {};
   const std::filesystem::path file = std::filesystem::path(scene.directory) / scene.initial.file;
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) return {};
@@ -216,7 +217,7 @@ Scene read(std::string_view text, const std::string& name, const std::string& di
   reader.add_findings(check_presence(scene, [&reader](const std::string& path) { return reader.written(path); }));
   const std::vector<Finding> findings = check(scene);
   reader.add_findings(findings);
-  if (!directory.empty() && !names_field(findings, "initial.file")) reader.add_findings(check_packing_file(scene));
+  if (!directory.empty() && !names_field(findings, "initial.file")) reader.add_findings(check_initial_file(scene));
   mistakes.insert(mistakes.end(), reader.mistakes().begin(), reader.mistakes().end());
   std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);

@@ -18,7 +18,7 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
       findings.push_back({path, fmt::format("{} is needed with units = \"SI\"", path), {"units", "initial.kind"}});
   };
   const InitialKind kind = scene.initial.kind;
-  const bool drawn = kind != InitialKind::listed && kind != InitialKind::packing;
+  const bool drawn = kind != InitialKind::listed && kind != InitialKind::packing && kind != InitialKind::checkpoint;
   exclusive("md.dt", "md.steps_per_contact");
   exclusive("cd.dt", "cd.dt_factor");
   if (drawn) exclusive("cell.size", "initial.solid_fraction");

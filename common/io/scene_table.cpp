@@ -126,13 +126,15 @@ void add_listed_grains(Rows& rows) {
 }
 
 void add_initial(Rows& rows) {
-  rows.push_back({.path = "initial.kind",
-                  .target = [](Scene& s) -> FieldTarget { return &s.initial.kind; },
-                  .choices = {"lattice", "gas", "compressed_gas", "packing", "listed"},
-                  .fallback = "`\"listed\"` if there are [[grain]] entries, else `\"gas\"`",
-                  .doc = "`lattice`: square or cubic, slightly shaken; `gas`: random, no two grains touching; "
-                         "`compressed_gas`: a gas compressed isotropically to `loading.pressure` before the run; "
-                         "`packing`: read from a file; `listed`: the [[grain]] entries"});
+  rows.push_back(
+      {.path = "initial.kind",
+       .target = [](Scene& s) -> FieldTarget { return &s.initial.kind; },
+       .choices = {"lattice", "gas", "compressed_gas", "packing", "listed", "checkpoint"},
+       .fallback = "`\"listed\"` if there are [[grain]] entries, else `\"gas\"`",
+       .doc = "`lattice`: square or cubic, slightly shaken; `gas`: random, no two grains touching; "
+              "`compressed_gas`: a gas compressed isotropically to `loading.pressure` before the run; "
+              "`packing`: read from a file; `listed`: the [[grain]] entries; `checkpoint`: the state that another "
+              "run has left, with its cell, its velocities and what its contacts remember"});
   rows.push_back({.path = "initial.solid_fraction",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.solid_fraction; },
                   .symbol = "Phi",
@@ -147,8 +149,14 @@ void add_initial(Rows& rows) {
                   .doc = "root mean square of each velocity component at the start"});
   rows.push_back({.path = "initial.file",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.file; },
-                  .fallback = "packing: needed",
-                  .doc = "packing: a table (.csv) or a LAMMPS data file (.data), its path relative to the scene file"});
+                  .fallback = "packing, checkpoint: needed",
+                  .doc = "packing: a table (.csv) or a LAMMPS data file (.data); checkpoint: a checkpoint (.h5); its "
+                         "path relative to the scene file"});
+  rows.push_back({.path = "initial.contacts",
+                  .target = [](Scene& s) -> FieldTarget { return &s.initial.fresh_contacts; },
+                  .choices = {"kept", "fresh"},
+                  .doc = "checkpoint: `kept`: contacts go on with what they remember (springs, impulses), which needs "
+                         "the same engine and kind of laws; `fresh`: only grains and cell are taken over"});
   rows.push_back({.path = "initial.friction",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.friction; },
                   .range = at_least(0),
@@ -211,57 +219,6 @@ void add_planes(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
                   .fallback = "[material]",
                   .doc = "name of its material"});
-}
-
-void add_loading(Rows& rows) {
-  rows.push_back({.path = "loading.kind",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.kind; },
-                  .choices = {"none", "plane_shear", "isotropic", "drives"},
-                  .doc = "`none`: the cell does not move; `plane_shear`: L_xy given, sigma_yy held at `pressure` (the "
-                         "volume held if no pressure is given); `isotropic`: mean stress held at `pressure`; "
-                         "`drives`: the [[drive]] entries. All but `none` need a cell periodic in each direction"});
-  rows.push_back({.path = "loading.pressure",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.pressure; },
-                  .symbol = "P",
-                  .quantity = Quantity::pressure,
-                  .range = above(0),
-                  .doc = "the pressure held, and the unit of stress in kappa and I"});
-  rows.push_back({.path = "loading.shear_rate",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.shear_rate; },
-                  .quantity = Quantity::rate,
-                  .range = above(0),
-                  .fallback = "plane_shear: needed, or `inertial_number`",
-                  .doc = "plane_shear: L_xy"});
-  rows.push_back({.path = "loading.inertial_number",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.inertial_number; },
-                  .symbol = "I",
-                  .range = above(0),
-                  .fallback = "plane_shear: needed, or `shear_rate`",
-                  .doc = "plane_shear: L_xy sqrt(m / (P d^(D-2)))"});
-  rows.push_back({.path = "loading.gravity",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.gravity; },
-                  .symbol = "g",
-                  .quantity = Quantity::acceleration,
-                  .fallback = "none",
-                  .doc = "acceleration, per direction; 0 in periodic directions"});
-}
-
-void add_drives(Rows& rows) {
-  rows.push_back({.path = "drive.component",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().component; },
-                  .required = true,
-                  .doc = "`\"xx\"`, `\"xy\"`, ... of the velocity gradient L, or `\"isotropic\"`: one rate for all "
-                         "diagonal components, whose stress is the mean normal stress"});
-  rows.push_back({.path = "drive.rate",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().rate; },
-                  .quantity = Quantity::rate,
-                  .fallback = "needed, or `stress`",
-                  .doc = "the component's value, < 0 in compression"});
-  rows.push_back({.path = "drive.stress",
-                  .target = [](Scene& s) -> FieldTarget { return &s.loading.drives.back().stress; },
-                  .quantity = Quantity::pressure,
-                  .fallback = "needed, or `rate`",
-                  .doc = "the stress that the component is held at, > 0 in compression"});
 }
 
 void add_engines(Rows& rows) {
@@ -329,34 +286,6 @@ void add_engines(Rows& rows) {
                          "step, which may be far above tau_c; false: rigid"});
 }
 
-void add_run(Rows& rows) {
-  rows.push_back({.path = "run.duration",
-                  .target = [](Scene& s) -> FieldTarget { return &s.run.duration; },
-                  .quantity = Quantity::time,
-                  .range = above(0),
-                  .fallback = "needed, or `strain`",
-                  .doc = "time simulated"});
-  rows.push_back({.path = "run.strain",
-                  .target = [](Scene& s) -> FieldTarget { return &s.run.strain; },
-                  .range = above(0),
-                  .fallback = "needed, or `duration`",
-                  .doc = "shear strain simulated, where L_xy is given"});
-  rows.push_back({.path = "run.average_from",
-                  .target = [](Scene& s) -> FieldTarget { return &s.run.average_from; },
-                  .range = {.low = 0, .high = 1, .high_open = true},
-                  .doc = "measures are averaged from this fraction of the run on"});
-  rows.push_back({.path = "run.samples",
-                  .target = [](Scene& s) -> FieldTarget { return &s.run.samples; },
-                  .range = at_least(1),
-                  .doc = "number of measures over the run"});
-  rows.push_back({.path = "run.equilibrium",
-                  .target = [](Scene& s) -> FieldTarget { return &s.run.equilibrium; },
-                  .range = above(0),
-                  .fallback = "run to the end",
-                  .doc = "isotropic: stop once, for one inertial time, the stress is within 1 % and the kinetic energy "
-                         "per grain (rattlers apart) is below this times P d^D"});
-}
-
 void add_compare(Rows& rows) {
   rows.push_back({.path = "compare.inertial_numbers",
                   .target = [](Scene& s) -> FieldTarget { return &s.compare.inertial_numbers; },
@@ -387,7 +316,7 @@ const std::vector<SceneField>& scene_fields() {
     Rows rows;
     for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material,
                            add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_bodies, add_loading,
-                           add_drives, add_engines, add_run, add_compare})
+                           add_drives, add_stages, add_engines, add_run, add_compare})
       add(rows);
     return rows;
   }();
@@ -440,9 +369,21 @@ const std::vector<SceneSection>& scene_sections() {
        .list = true,
        .doc = "One component of the cell's motion, driven in rate or in stress; for `loading.kind = \"drives\"`.",
        .append = [](Scene& s) { s.loading.drives.emplace_back(); }},
+      {.name = "stage",
+       .list = true,
+       .doc = "A stage of the run, one table per stage, in their order: its own loading and end, on the state that the "
+              "stage before has left. With stages, [loading] gives only the pressure that kappa, I and stresses refer "
+              "to (and gravity), and [run] neither length nor conditions. Each stage leaves a checkpoint.",
+       .append = [](Scene& s) { s.stages.emplace_back(); }},
+      {.name = "stage.loading", .doc = "What the stage imposes on the sample, as in [loading]."},
+      {.name = "stage.drive",
+       .list = true,
+       .doc = "As [[drive]], for `stage.loading.kind = \"drives\"`.",
+       .append = [](Scene& s) { s.stages.back().loading.drives.emplace_back(); }},
       {.name = "md", .doc = "Numerical parameters of the soft engine; a scene for cd may have them too."},
       {.name = "cd", .doc = "Numerical parameters of the rigid engine; a scene for md may have them too."},
-      {.name = "run", .doc = "How long, and what is averaged. One of `duration` and `strain` is needed."},
+      {.name = "run",
+       .doc = "How long, and what is averaged. One of `duration` and `strain` is needed, unless there are stages."},
       {.name = "compare", .doc = "What `galet compare` sweeps."}};
   return sections;
 }

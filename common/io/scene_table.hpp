@@ -22,4 +22,10 @@ void add_other_materials(Rows& rows);
 void add_pairs(Rows& rows);
 void add_groups(Rows& rows);
 
+// scene_table_loading.cpp
+void add_loading(Rows& rows);
+void add_drives(Rows& rows);
+void add_stages(Rows& rows);
+void add_run(Rows& rows);
+
 }  // namespace galet::scene_table

@@ -1,7 +1,6 @@
 #include "common/neighbour/verlet_list.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -10,36 +9,11 @@
 
 #include "common/core/column.hpp"
 #include "common/core/error.hpp"
-#include "common/core/parallel.hpp"
-#include "common/geometry/contact_frame.hpp"
+#include "common/neighbour/image.hpp"
 
 namespace galet {
 
 namespace {
-
-/// In sizes of the cell: images are counted in int.
-constexpr double farthest = 1e9;
-
-template <int D>
-Image<D> add(const Image<D>& a, const Image<D>& b) {
-  Image<D> sum;
-  for (int k = 0; k < D; ++k) sum[k] = a[k] + b[k];
-  return sum;
-}
-
-template <int D>
-Image<D> negative(const Image<D>& a) {
-  Image<D> opposite;
-  for (int k = 0; k < D; ++k) opposite[k] = -a[k];
-  return opposite;
-}
-
-template <int D>
-bool first_nonzero_positive(const Image<D>& image) {
-  for (int k = 0; k < D; ++k)
-    if (image[k] != 0) return image[k] > 0;
-  return false;
-}
 
 template <int D>
 double least_singular_value(const Mat<D>& matrix) {
@@ -105,7 +79,7 @@ void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
   for (std::size_t i = 0; i < position.size(); ++i) {
     if (!position[i].allFinite()) throw RunError(fmt::format("the position of grain {} is not finite", i));
     const Vec<D> fraction = to_fraction * position[i];
-    if (!(fraction.cwiseAbs().maxCoeff() < farthest))
+    if (!(fraction.cwiseAbs().maxCoeff() < farthest_image))
       throw RunError(fmt::format("grain {} is lost, far from the others", i));
     for (int a = 0; a < D; ++a)
       if (cell.periodic[a]) wraps_[i][a] = -static_cast<int>(std::floor(fraction[a]));
@@ -149,158 +123,16 @@ void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
 }
 
 template <int D>
-void VerletList<D>::fill_bins(std::span<const Vec<D>> position, const Cell<D>& cell, double cutoff) {
-  const Mat<D> to_fraction = cell.box.inverse();
-  const Vec<D> widths = face_distances<D>(cell.box);
-  Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const Vec<D>& x : position) {
-    const Vec<D> fraction = to_fraction * x;
-    low = low.cwiseMin(fraction);
-    high = high.cwiseMax(fraction);
-  }
-  // More bins than a few per grain only cost time (dilute gases, grains far from the others).
-  const int most = 1 + static_cast<int>(2 * std::pow(static_cast<double>(position.size()), 1.0 / D));
-  std::size_t total = 1;
-  for (int a = 0; a < D; ++a) {
-    origin_of_bins_[a] = cell.periodic[a] ? 0 : low[a];
-    extent_of_bins_[a] = cell.periodic[a] ? 1 : std::max(1e-300, high[a] - low[a]);
-    const double extent = extent_of_bins_[a] * widths[a];
-    bins_[a] = static_cast<int>(std::clamp(std::floor(extent / cutoff), 1.0, static_cast<double>(most)));
-    reach_[a] = cell.periodic[a] ? static_cast<int>(std::ceil(cutoff * bins_[a] / extent)) : 1;
-    total *= bins_[a];
-  }
-  bin_of_.resize(position.size());
-  refill(bin_start_, total + 1, 0);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const Vec<D> fraction = to_fraction * position[i];
-    int bin = 0;
-    for (int a = D - 1; a >= 0; --a) {
-      const double along = (fraction[a] - origin_of_bins_[a]) / extent_of_bins_[a];
-      bin = bin * bins_[a] + std::clamp(static_cast<int>(along * bins_[a]), 0, bins_[a] - 1);
-    }
-    bin_of_[i] = bin;
-    ++bin_start_[bin + 1];
-  }
-  std::partial_sum(bin_start_.begin(), bin_start_.end(), bin_start_.begin());
-  bin_grains_.resize(position.size());
-  copy_with_room(bin_start_, bin_cursor_);
-  for (std::size_t i = 0; i < position.size(); ++i) bin_grains_[bin_cursor_[bin_of_[i]]++] = static_cast<int>(i);
-}
-
-template <int D>
-void VerletList<D>::search_bin(int i, int bin, const Image<D>& image, std::span<const Vec<D>> position,
-                               std::span<const double> radius, const Cell<D>& cell,
-                               std::vector<Neighbour>& found) const {
-  const Vec<D> shift = lattice<D>(cell.box, image) - position[i];
-  for (int k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k) {
-    const int j = bin_grains_[k];
-    if (j < i || (j == i && !first_nonzero_positive<D>(image))) continue;
-    const Vec<D> branch = position[j] + shift;
-    const double cutoff = radius[i] + radius[j] + range_ + skin_;
-    const double squared_distance = branch.squaredNorm();
-    if (squared_distance >= cutoff * cutoff) continue;
-    if (!group_.empty() && group_[i] >= 0 && group_[i] == group_[j]) continue;
-    const double overlap = radius[i] + radius[j] - std::sqrt(squared_distance);
-    if (overlap > 0.5 * std::min(radius[i], radius[j]))
-      throw RunError(
-          fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
-                      "contact is too soft or the time step too large",
-                      i, j, overlap));
-    found.push_back({j, image});
-  }
-}
-
-template <int D>
-void VerletList<D>::search_grain(int i, std::span<const Vec<D>> position, std::span<const double> radius,
-                                 const Cell<D>& cell, std::span<const Plane<D>> planes,
-                                 std::vector<Neighbour>& found) const {
-  std::array<int, D> home, offset;
-  for (int a = 0, bin = bin_of_[i]; a < D; bin /= bins_[a], ++a) home[a] = bin % bins_[a];
-  for (int a = 0; a < D; ++a) offset[a] = -reach_[a];
-  const std::size_t begin = found.size();
-  for (bool more = true; more;) {
-    int bin = 0;
-    bool inside = true;
-    Image<D> image{};
-    for (int a = D - 1; a >= 0; --a) {
-      int place = home[a] + offset[a];
-      if (cell.periodic[a]) {
-        image[a] = place >= 0 ? place / bins_[a] : -((bins_[a] - 1 - place) / bins_[a]);
-        place -= image[a] * bins_[a];
-      } else if (place < 0 || place >= bins_[a]) {
-        inside = false;
-      }
-      bin = bin * bins_[a] + place;
-    }
-    if (inside) search_bin(i, bin, image, position, radius, cell, found);
-    more = false;
-    for (int a = 0; a < D && !more; ++a) {
-      more = ++offset[a] <= reach_[a];
-      if (!more) offset[a] = -reach_[a];
-    }
-  }
-  std::sort(found.begin() + begin, found.end());
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    const ContactFrame<D> frame = plane_frame<D>(position[i], radius[i], planes[p]);
-    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind plane {}", i, p));
-    if (frame.gap < range_ + skin_) found.push_back({static_cast<int>(position.size() + p), Image<D>{}});
-  }
-}
-
-template <int D>
-void VerletList<D>::search(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-                           std::span<const Plane<D>> planes) {
-  const std::size_t grains = position.size();
-  chunk_found_.resize(chunk_count(grains));
-  found_count_.assign(grains, 0);
-  // An exception must not leave a parallel region: each chunk keeps its own first failure.
-  failures_.assign(chunk_count(grains), std::string());
-  parallel_chunks(grains, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    std::vector<Neighbour>& found = chunk_found_[chunk];
-    found.clear();
-    try {
-      for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t before = found.size();
-        search_grain(static_cast<int>(i), position, radius, cell, planes, found);
-        found_count_[i] = static_cast<int>(found.size() - before);
-      }
-    } catch (const RunError& error) {
-      failures_[chunk] = error.what();
-    }
-  });
-  for (const std::string& message : failures_)
-    if (!message.empty()) throw RunError(message);
-}
-
-template <int D>
 void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
                           std::span<const Plane<D>> planes, std::span<const int> group) {
-  group_ = group;
   try {
     wrap(position, cell);
     largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
-    if (!position.empty()) {
-      fill_bins(position, cell, 2 * largest_radius_ + range_ + skin_);
-      search(position, radius, cell, planes);
-    }
+    search_.find(position, radius, cell, planes, group, range_ + skin_, pairs_);
   } catch (const RunError&) {
     // Rows that no longer match what their owner keeps about them must not be read.
     forget_pairs(static_cast<int>(position.size()));
     throw;
-  }
-  std::size_t total = 0;
-  for (const auto& found : chunk_found_) total += found.size();
-  pairs_.i.resize(total), pairs_.j.resize(total), pairs_.image.resize(total);
-  std::size_t row = 0;
-  for (std::size_t chunk = 0, i = 0; chunk < chunk_found_.size(); ++chunk) {
-    std::size_t taken = 0;
-    for (const std::size_t end = std::min(position.size(), (chunk + 1) * chunk_size); i < end; ++i) {
-      for (int k = 0; k < found_count_[i]; ++k, ++row, ++taken) {
-        pairs_.i[row] = static_cast<int>(i);
-        pairs_.j[row] = chunk_found_[chunk][taken].j;
-        pairs_.image[row] = chunk_found_[chunk][taken].image;
-      }
-    }
   }
   index_rows(static_cast<int>(position.size()));
   reference_.assign(position.begin(), position.end());
@@ -331,9 +163,9 @@ void VerletList<D>::index_rows(int grains) {
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   std::partial_sum(second_.begin(), second_.end(), second_.begin());
   rows_of_second_.resize(second_.back());
-  found_count_.assign(second_.begin(), second_.end() - 1);
+  cursor_.assign(second_.begin(), second_.end() - 1);
   for (std::size_t row = 0; row < rows; ++row)
-    if (pairs_.j[row] < grains) rows_of_second_[found_count_[pairs_.j[row]]++] = static_cast<int>(row);
+    if (pairs_.j[row] < grains) rows_of_second_[cursor_[pairs_.j[row]]++] = static_cast<int>(row);
 
   refill(origin_, rows, -1);
   refill(flipped_, rows, std::uint8_t{0});
@@ -356,12 +188,10 @@ void VerletList<D>::index_rows(int grains) {
 
 template <int D>
 MemoryUse VerletList<D>::memory() const {
-  MemoryUse use;
-  use.grains =
-      bytes_of(first_, second_, reference_, bin_of_, bin_start_, bin_grains_, wraps_, found_count_, bin_cursor_);
-  use.pairs = bytes_of(pairs_.i, pairs_.j, pairs_.image, old_pairs_.i, old_pairs_.j, old_pairs_.image);
+  MemoryUse use = search_.memory();
+  use.grains += bytes_of(first_, second_, reference_, wraps_, cursor_);
+  use.pairs += bytes_of(pairs_.i, pairs_.j, pairs_.image, old_pairs_.i, old_pairs_.j, old_pairs_.image);
   use.pairs += bytes_of(rows_of_second_, origin_, flipped_, old_flipped_, old_order_);
-  for (const auto& found : chunk_found_) use.pairs += bytes_of(found);
   use.listed = size();
   return use;
 }

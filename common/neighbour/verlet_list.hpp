@@ -14,12 +14,13 @@
 // Any cell works, also one narrower than a grain's interaction range (a grain then meets several images, its own
 // included).
 //
+// The search for pairs: neighbour_search.hpp.
+//
 // Source: Allen and Tildesley 1987, ch. 5. Cost: O(grains) to build; one pass over the grains to test.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "common/core/archive.hpp"
@@ -27,17 +28,9 @@
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
+#include "common/neighbour/neighbour_search.hpp"
 
 namespace galet {
-
-/// Listed pairs, sorted by (i, j, image); i < j, or i == j for a grain and its own image (first non-zero lattice
-/// coordinate positive). j >= grains stands for plane j - grains, with image zero.
-template <int D>
-struct PairColumns {
-  std::vector<int> i, j;
-  std::vector<Image<D>> image;
-  std::size_t size() const { return i.size(); }
-};
 
 template <int D>
 class VerletList {
@@ -82,20 +75,7 @@ class VerletList {
   void restore(const Archive& archive, int grains);
 
  private:
-  struct Neighbour {
-    int j;
-    Image<D> image;
-    bool operator<(const Neighbour& other) const { return j != other.j ? j < other.j : image < other.image; }
-  };
-
   void wrap(std::span<Vec<D>> position, Cell<D>& cell);
-  void fill_bins(std::span<const Vec<D>> position, const Cell<D>& cell, double cutoff);
-  void search(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-              std::span<const Plane<D>> planes);
-  void search_grain(int i, std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-                    std::span<const Plane<D>> planes, std::vector<Neighbour>& found) const;
-  void search_bin(int i, int bin, const Image<D>& image, std::span<const Vec<D>> position,
-                  std::span<const double> radius, const Cell<D>& cell, std::vector<Neighbour>& found) const;
   void carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap);
   void index_rows(int grains);
   void forget_pairs(int grains);
@@ -115,15 +95,9 @@ class VerletList {
   std::vector<Vec<D>> plane_reference_;
   Mat<D> box_reference_ = Mat<D>::Identity();
 
-  // Bins of the cell, in fractional coordinates.
-  std::array<int, D> bins_{}, reach_{};
-  Vec<D> origin_of_bins_ = Vec<D>::Zero(), extent_of_bins_ = Vec<D>::Ones();
-  std::vector<int> bin_of_, bin_start_, bin_grains_;
+  NeighbourSearch<D> search_;
   std::vector<Image<D>> wraps_;
-  std::vector<std::vector<Neighbour>> chunk_found_;
-  std::vector<int> found_count_, bin_cursor_;
-  std::vector<std::string> failures_;  ///< of the chunks of a search; empty: none
-  std::span<const int> group_;         ///< while a list is built
+  std::vector<int> cursor_;
 };
 
 extern template class VerletList<2>;

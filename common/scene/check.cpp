@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -61,8 +60,10 @@ void check_count(Report& report) {
   const auto listed = scene.grains.listed.size();
   if (drawn(scene.initial.kind) && listed == 0)
     report.rule(count > 0, "grains.count", "grains.count is needed: the number of grains", {"initial.kind", "grain"});
-  if (scene.initial.kind == InitialKind::packing)
-    report.rule(count == 0, "grains.count", "grains.count follows from the packing file: leave it out",
+  if (scene.initial.kind == InitialKind::packing || scene.initial.kind == InitialKind::checkpoint)
+    report.rule(count == 0, "grains.count",
+                fmt::format("grains.count follows from the {}: leave it out",
+                            scene.initial.kind == InitialKind::packing ? "packing file" : "checkpoint"),
                 {"initial.kind"});
   if (scene.initial.kind == InitialKind::listed && count > 0 && listed > 0)
     report.rule(
@@ -134,7 +135,11 @@ void check_grains(Report& report) {
   check_listed(report);
   report.rule(!grains.density || !grains.mass, "grains.mass", "grains.density and grains.mass exclude each other",
               {"grains.density"});
-  const bool massive = grains.density || grains.mass || report.scene.initial.kind == InitialKind::packing;
+  const InitialKind kind = report.scene.initial.kind;
+  const bool massive = grains.density || grains.mass || kind == InitialKind::packing || kind == InitialKind::checkpoint;
+  report.rule(kind != InitialKind::checkpoint || (!grains.density && !grains.mass), "grains",
+              "grains.density and grains.mass have no effect on a checkpoint, whose grains have their masses",
+              {"initial.kind"});
   report.rule(report.scene.reduced_units || massive, "grains",
               "grains.density or grains.mass is needed with units = \"SI\"",
               {"units", "initial.kind", "grains.density", "grains.mass"});
@@ -178,12 +183,20 @@ void check_solid_fraction(Report& report) {
 void check_initial(Report& report) {
   const Scene& scene = report.scene;
   const InitialSpec& initial = scene.initial;
-  const bool packing = initial.kind == InitialKind::packing;
+  const bool packing = initial.kind == InitialKind::packing, checkpoint = initial.kind == InitialKind::checkpoint;
   const bool compressed = initial.kind == InitialKind::compressed_gas;
   report.rule(!packing || !initial.file.empty(), "initial", "initial.file is needed with kind = \"packing\"",
               {"initial.kind", "initial.file"});
-  report.rule(packing || initial.file.empty(), "initial.file", "initial.file needs initial.kind = \"packing\"",
+  report.rule(!checkpoint || !initial.file.empty(), "initial", "initial.file is needed with kind = \"checkpoint\"",
+              {"initial.kind", "initial.file"});
+  report.rule(packing || checkpoint || initial.file.empty(), "initial.file",
+              "initial.file needs initial.kind = \"packing\" or \"checkpoint\"", {"initial.kind"});
+  report.rule(checkpoint || !initial.fresh_contacts, "initial.contacts",
+              "initial.contacts needs initial.kind = \"checkpoint\": other states have no contacts yet",
               {"initial.kind"});
+  report.rule(!checkpoint || scene.bodies.empty(), "initial.kind",
+              "initial.kind = \"checkpoint\" and [[body]] entries exclude each other: bodies are made of listed grains",
+              {"wall"});
   const bool readable = initial.file.ends_with(".csv") || initial.file.ends_with(".data");
   report.rule(!packing || initial.file.empty() || readable, "initial.file",
               fmt::format("initial.file: expected a name that ends in .csv (a table) or .data (LAMMPS), got {}",
@@ -191,6 +204,8 @@ void check_initial(Report& report) {
               {"initial.kind"});
   report.rule(initial.kind != InitialKind::listed || initial.speed == 0, "initial.speed",
               "initial.speed has no effect on listed grains: give each [[grain]] its velocity", {"initial.kind"});
+  report.rule(!checkpoint || initial.speed == 0, "initial.speed",
+              "initial.speed has no effect on a checkpoint, whose grains have their velocities", {"initial.kind"});
   report.rule(compressed || !initial.friction, "initial.friction",
               "initial.friction needs initial.kind = \"compressed_gas\"", {"initial.kind"});
   report.rule(!compressed || scene.loading.pressure, "initial.kind",
@@ -210,6 +225,8 @@ void check_cell(Report& report) {
               {"cell.size"});
   report.rule(drawn(scene.initial.kind) || cell.aspect.empty(), "cell.aspect",
               "cell.aspect has no effect on listed grains and packings", {"initial.kind"});
+  report.rule(scene.initial.kind != InitialKind::checkpoint || cell.size.empty(), "cell.size",
+              "cell.size has no effect on a checkpoint, which brings its cell", {"initial.kind"});
   bool any_periodic = false;
   for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
     any_periodic = any_periodic || is_periodic(scene, a);
@@ -249,113 +266,7 @@ void check_planes(Report& report) {
   }
 }
 
-// ---- loading -----------------------------------------------------------------------------------------------
-
-void check_plane_shear(Report& report) {
-  const LoadingSpec& loading = report.scene.loading;
-  const bool shear = loading.kind == LoadingKind::plane_shear;
-  report.rule(!loading.shear_rate || !loading.inertial_number, "loading.inertial_number",
-              "loading.shear_rate and loading.inertial_number exclude each other", {"loading.shear_rate"});
-  report.rule(!shear || loading.shear_rate || loading.inertial_number, "loading",
-              "loading.shear_rate or loading.inertial_number is needed with kind = \"plane_shear\"",
-              {"loading.kind", "loading.shear_rate", "loading.inertial_number"});
-  report.rule(shear || !loading.shear_rate, "loading.shear_rate",
-              "loading.shear_rate needs loading.kind = \"plane_shear\"", {"loading.kind"});
-  report.rule(shear || !loading.inertial_number, "loading.inertial_number",
-              "loading.inertial_number needs loading.kind = \"plane_shear\"", {"loading.kind"});
-  report.rule(!shear || !loading.inertial_number || loading.pressure, "loading.inertial_number",
-              "loading.inertial_number needs loading.pressure: it is the shear rate times sqrt(m / (P d^(D-2)))",
-              {"loading.kind", "loading.pressure"});
-}
-
-void check_gravity(Report& report) {
-  const Scene& scene = report.scene;
-  const auto& gravity = scene.loading.gravity;
-  report.components("loading.gravity", gravity.size());
-  if (gravity.size() != static_cast<std::size_t>(scene.dimension)) return;
-  for (std::size_t a = 0; a < gravity.size(); ++a)
-    report.rule(gravity[a] == 0 || !is_periodic(scene, a), "loading.gravity",
-                fmt::format("loading.gravity: {} is a periodic direction, in which grains would fall forever; set "
-                            "cell.periodic to false there",
-                            axis(a)),
-                {"cell.periodic", "dimension"});
-}
-
-Paths component_names(int dimension) {
-  Paths names;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-    for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) names.push_back({axis(a), axis(b)});
-  names.emplace_back("isotropic");
-  return names;
-}
-
-void check_drives(Report& report) {
-  const Scene& scene = report.scene;
-  const auto& drives = scene.loading.drives;
-  const bool wanted = scene.loading.kind == LoadingKind::drives;
-  report.rule(!wanted || !drives.empty(), "loading.kind", "loading.kind = \"drives\" needs [[drive]] entries",
-              {"drive"});
-  report.rule(wanted || drives.empty(), "drive", "[[drive]] entries need loading.kind = \"drives\"", {"loading.kind"});
-  const Paths names = component_names(scene.dimension);
-  std::set<std::string> seen;
-  bool isotropic = false;
-  for (const CellDrive& drive : drives) isotropic = isotropic || drive.component == "isotropic";
-  for (std::size_t k = 0; k < drives.size(); ++k) {
-    const CellDrive& drive = drives[k];
-    const std::string path = fmt::format("drive[{}].", k);
-    const std::string component = path + "component";
-    const bool known = std::find(names.begin(), names.end(), drive.component) != names.end();
-    report.rule(known, component,
-                fmt::format("{}: expected {}, got {}{}", component, alternatives(quoted(names)),
-                            quoted(drive.component), suggestion(drive.component, names)),
-                {"dimension"});
-    report.rule(!known || seen.insert(drive.component).second, component,
-                fmt::format("{}: {} is driven twice", component, quoted(drive.component)));
-    const bool diagonal = drive.component.size() == 2 && drive.component[0] == drive.component[1];
-    report.rule(!known || !isotropic || !diagonal, component,
-                fmt::format("{}: {} and \"isotropic\" drive the same rate", component, quoted(drive.component)));
-    report.rule(!drive.rate || !drive.stress, path + "stress", path + "rate and " + path + "stress exclude each other",
-                {path + "rate"});
-    report.rule(drive.rate || drive.stress, fmt::format("drive[{}]", k),
-                fmt::format("drive[{}]: rate or stress is needed", k), {path + "rate", path + "stress"});
-  }
-}
-
-void check_loading(Report& report) {
-  const Scene& scene = report.scene;
-  const LoadingSpec& loading = scene.loading;
-  check_plane_shear(report);
-  check_gravity(report);
-  check_drives(report);
-  report.rule(loading.kind != LoadingKind::isotropic || loading.pressure, "loading",
-              "loading.pressure is needed with kind = \"isotropic\"", {"loading.kind", "loading.pressure"});
-  report.rule(loading.kind == LoadingKind::none || all_periodic(scene), "cell.periodic",
-              "cell.periodic: this loading.kind moves the cell, which must be periodic in each direction",
-              {"loading.kind"});
-}
-
-// ---- run and compare ---------------------------------------------------------------------------------------
-
-bool sheared(const LoadingSpec& loading) {
-  if (loading.kind == LoadingKind::plane_shear) return true;
-  return loading.kind == LoadingKind::drives &&
-         std::any_of(loading.drives.begin(), loading.drives.end(),
-                     [](const CellDrive& drive) { return drive.component == "xy" && drive.rate.value_or(0) != 0; });
-}
-
-void check_run(Report& report) {
-  const Scene& scene = report.scene;
-  const RunSpec& run = scene.run;
-  report.rule(!run.duration || !run.strain, "run.strain", "run.duration and run.strain exclude each other",
-              {"run.duration"});
-  report.rule(run.duration || run.strain, "run", "run.duration or run.strain is needed",
-              {"run.duration", "run.strain"});
-  report.rule(!run.strain || sheared(scene.loading), "run.strain",
-              "run.strain needs loading.kind = \"plane_shear\" or a [[drive]] that gives the rate of \"xy\"",
-              {"loading.kind", "drive"});
-  report.rule(!run.equilibrium || scene.loading.kind == LoadingKind::isotropic, "run.equilibrium",
-              "run.equilibrium needs loading.kind = \"isotropic\"", {"loading.kind"});
-}
+// ---- compare -----------------------------------------------------------------------------------------------
 
 void check_repeated(Report& report, const std::string& path, std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -391,8 +302,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_cell(report);
   check_planes(report);
   check_bodies(report);
-  check_loading(report);
-  check_run(report);
+  check_loadings(report);
   check_compare(report);
   return report.findings;
 }

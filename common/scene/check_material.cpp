@@ -278,9 +278,7 @@ void check_relaxers(Report& report) {
   const auto nonzero = [](const std::vector<double>& values) {
     return std::any_of(values.begin(), values.end(), [](double x) { return x != 0; });
   };
-  const bool flows = loading.kind == LoadingKind::plane_shear ||
-                     std::any_of(loading.drives.begin(), loading.drives.end(),
-                                 [](const CellDrive& drive) { return drive.rate.value_or(0) != 0; });
+  const bool flows = imposes_flow(scene);
   const bool walls = std::any_of(scene.planes.begin(), scene.planes.end(),
                                  [&](const PlaneSpec& plane) { return nonzero(plane.velocity); });
   const auto refuse = [&](bool on, const char* path) {
@@ -289,7 +287,7 @@ void check_relaxers(Report& report) {
     report.rule(!nonzero(loading.gravity), path, fmt::format("{} is refused under gravity{}", path, why),
                 {"loading.gravity"});
     report.rule(!flows, path, fmt::format("{} is refused with an imposed flow{}", path, why),
-                {"loading.kind", "drive"});
+                {"loading.kind", "drive", "stage"});
     report.rule(!walls, path, fmt::format("{} is refused with moving planes{}", path, why), {"plane"});
   };
   refuse(scene.md.drag > 0, "md.drag");

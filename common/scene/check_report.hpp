@@ -33,7 +33,9 @@ struct Report {
 };
 
 /// Whether the grains are made by the scene itself (not listed, not read from a file).
-inline bool drawn(InitialKind kind) { return kind != InitialKind::listed && kind != InitialKind::packing; }
+inline bool drawn(InitialKind kind) {
+  return kind != InitialKind::listed && kind != InitialKind::packing && kind != InitialKind::checkpoint;
+}
 
 inline bool is_periodic(const Scene& scene, std::size_t direction) {
   return direction >= scene.cell.periodic.size() || scene.cell.periodic[direction];
@@ -48,6 +50,10 @@ bool rotates(const Scene& scene);
 void check_material(Report& report);
 void check_material_names(Report& report);  ///< of materials, and who refers to them
 void check_relaxers(Report& report);
+
+// check_loading.cpp
+void check_loadings(Report& report);    ///< of the scene and of its stages, with their ends
+bool imposes_flow(const Scene& scene);  ///< whether some loading imposes a rate
 
 // check_bodies.cpp
 void check_bodies(Report& report);

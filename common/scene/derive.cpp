@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "common/core/error.hpp"
+#include "common/scene/loading.hpp"
 #include "common/scene/md_step.hpp"
 #include "common/scene/packing.hpp"
 #include "common/scene/rigid_bodies.hpp"
+#include "common/scene/stages.hpp"
 
 namespace galet {
 
@@ -25,25 +27,37 @@ void derive_material(const Scene& scene, Derived& derived) {
         stiffness_level(derived.laws.at(0, 0), scene.dimension, *derived.pressure, derived.grains.mean_diameter);
 }
 
+/// What run.strain counts: |L_xy|, the axial rate, or that of the first drive that has one.
+double strain_rate(const Scene& scene, const Derived& derived) {
+  if (derived.shear_rate.value_or(0) != 0) return std::abs(*derived.shear_rate);
+  if (derived.compression_rate) return std::abs(*derived.compression_rate);
+  for (const CellDrive& drive : scene.loading.drives)
+    if (drive.rate.value_or(0) != 0) return std::abs(*drive.rate);
+  return 0;
+}
+
 void derive_times(const Scene& scene, Derived& derived) {
   const GrainFacts& grains = derived.grains;
   if (derived.pressure)
     derived.inertial_time =
         std::sqrt(grains.mean_mass / (*derived.pressure * force_scale_power(scene.dimension, grains.mean_diameter)));
   const LoadingSpec& loading = scene.loading;
-  if (loading.shear_rate) derived.shear_rate = loading.shear_rate;
+  derived.shear_rate = loading.shear_rate;
+  derived.compression_rate = loading.compression_rate;
   for (const CellDrive& drive : loading.drives)
     if (drive.component == "xy" && drive.rate) derived.shear_rate = drive.rate;
   if (loading.inertial_number && derived.inertial_time)
-    derived.shear_rate = *loading.inertial_number / *derived.inertial_time;
-  if (derived.shear_rate && derived.inertial_time)
-    derived.inertial_number = std::abs(*derived.shear_rate) * *derived.inertial_time;
+    (has_axis(loading.kind) ? derived.compression_rate : derived.shear_rate) =
+        *loading.inertial_number / *derived.inertial_time;
+  const double rate = strain_rate(scene, derived);
+  if (rate != 0 && derived.inertial_time && (derived.shear_rate || derived.compression_rate))
+    derived.inertial_number = rate * *derived.inertial_time;
   if (scene.run.duration) {
     derived.duration = *scene.run.duration;
-  } else if (scene.run.strain && derived.shear_rate && *derived.shear_rate != 0) {
-    derived.duration = *scene.run.strain / std::abs(*derived.shear_rate);
+  } else if (scene.run.strain && rate != 0) {
+    derived.duration = *scene.run.strain / rate;
   } else {
-    throw InputError("run: give run.duration, or run.strain with a shear rate");
+    throw InputError("run: give run.duration, or run.strain with a loading that imposes a rate");
   }
 }
 
@@ -62,6 +76,7 @@ NamedTime shortest_time(const Scene& scene, const Derived& derived) {
   };
   if (derived.inertial_time) consider(*derived.inertial_time, "tau_i");
   if (derived.shear_rate) consider(1 / std::abs(*derived.shear_rate), "1/shear rate");
+  if (derived.compression_rate) consider(1 / std::abs(*derived.compression_rate), "1/compression rate");
   if (derived.grains.largest_speed > 0) consider(d / derived.grains.largest_speed, "d / largest speed at the start");
   double gravity = 0;
   for (double component : scene.loading.gravity) gravity += component * component;
@@ -139,10 +154,22 @@ GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample) {
   return facts;
 }
 
+namespace {
+
+Derived derive_all_stages(const Scene& scene, const GrainFacts& facts) {
+  const std::vector<Derived> stages = derive_stages(scene, facts);
+  Derived whole = stages.front();
+  for (std::size_t k = 1; k < stages.size(); ++k) whole.duration += stages[k].duration;
+  return whole;
+}
+
+}  // namespace
+
 Derived derive(const Scene& scene, const GrainFacts& facts) {
+  if (!scene.stages.empty()) return derive_all_stages(scene, facts);
   Derived derived;
   derived.grains = facts;
-  derived.pressure = scene.loading.pressure;
+  derived.pressure = scene.loading.unit_pressure ? scene.loading.unit_pressure : scene.loading.pressure;
   derive_material(scene, derived);
   derive_times(scene, derived);
   derive_md_step(scene, derived);
@@ -161,9 +188,8 @@ namespace {
 /// affinely in a cell of equal edges, m_total V^(2/D) / 12 per driven component. (The volume, and not an edge, because
 /// the same periodic sample has many cells.)
 template <int D>
-double default_inertia(const Mat<D>& direction, const Sample<D>& sample, double factor) {
-  const double mass = std::accumulate(sample.mass.begin(), sample.mass.end(), 0.0);
-  const double edge = std::pow(sample.cell.volume(), 1.0 / D);
+double default_inertia(const Mat<D>& direction, double mass, double volume, double factor) {
+  const double edge = std::pow(volume, 1.0 / D);
   return factor * mass * edge * edge * direction.squaredNorm() / 12;
 }
 
@@ -180,32 +206,31 @@ Mat<D> component_direction(const std::string& component) {
 }  // namespace
 
 template <int D>
-std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, const Sample<D>& sample) {
-  std::vector<CellDrive> drives;
-  const LoadingSpec& loading = scene.loading;
-  if (loading.kind == LoadingKind::plane_shear) {
-    drives.push_back({"xy", derived.shear_rate, std::nullopt});
-    if (loading.pressure) drives.push_back({"yy", std::nullopt, loading.pressure});
-  } else if (loading.kind == LoadingKind::isotropic) {
-    drives.push_back({"isotropic", std::nullopt, loading.pressure});
-  } else if (loading.kind == LoadingKind::drives) {
-    drives = loading.drives;
-  }
+std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, double mass, double volume) {
   std::vector<CellMode<D>> modes;
-  for (const CellDrive& drive : drives) {
+  for (const CellDrive& drive : loading_drives(scene, derived)) {
     CellMode<D> mode;
     mode.direction = component_direction<D>(drive.component);
-    mode.stress_driven = drive.stress.has_value();
+    mode.stress_driven = !drive.rate;
     if (mode.stress_driven) {
-      // Sigma : direction for the target; "isotropic" sums over the D diagonal components.
-      mode.load = *drive.stress * (drive.component == "isotropic" ? D : 1);
-      mode.inertia = default_inertia<D>(mode.direction, sample, scene.cell.inertia_factor);
+      // Sigma : direction for the target; "isotropic" sums over the D diagonal components. What is held at the present
+      // stress gets its load when the stage starts (stages.hpp).
+      const double components = drive.component == "isotropic" ? D : 1;
+      mode.load = drive.stress.value_or(0) * components;
+      if (drive.stress_to) mode.load_rate = (*drive.stress_to * components - mode.load) / derived.duration;
+      mode.inertia = default_inertia<D>(mode.direction, mass, volume, scene.cell.inertia_factor);
     } else {
       mode.rate = *drive.rate;
     }
     modes.push_back(mode);
   }
   return modes;
+}
+
+template <int D>
+std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, const Sample<D>& sample) {
+  const double mass = std::accumulate(sample.mass.begin(), sample.mass.end(), 0.0);
+  return cell_modes<D>(scene, derived, mass, sample.cell.volume());
 }
 
 // ---- explanation -------------------------------------------------------------------------------------------
@@ -269,7 +294,8 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   explain_laws(scene, derived, lines);
   add("tau_i", derived.inertial_time, "inertial time sqrt(m / (P d^(D-2)))");
   add("shear rate", derived.shear_rate, "I / tau_i or as given");
-  add("I", derived.inertial_number, "shear rate * tau_i");
+  add("compression rate", derived.compression_rate, "I / tau_i or as given");
+  add("I", derived.inertial_number, derived.shear_rate ? "shear rate * tau_i" : "compression rate * tau_i");
   if (scene.material.normal_law == NormalLaw::hertz)
     add("K_N typical", derived.contact_stiffness, "dF_N/dh where pressure, weight, cohesion or impacts press contacts");
   add("tau_c", derived.collision_time, "duration of a head-on collision of two mean grains");
@@ -288,5 +314,7 @@ template GrainFacts grain_facts<2>(const Scene&, const Sample<2>&);
 template GrainFacts grain_facts<3>(const Scene&, const Sample<3>&);
 template std::vector<CellMode<2>> cell_modes<2>(const Scene&, const Derived&, const Sample<2>&);
 template std::vector<CellMode<3>> cell_modes<3>(const Scene&, const Derived&, const Sample<3>&);
+template std::vector<CellMode<2>> cell_modes<2>(const Scene&, const Derived&, double, double);
+template std::vector<CellMode<3>> cell_modes<3>(const Scene&, const Derived&, double, double);
 
 }  // namespace galet

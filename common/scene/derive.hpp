@@ -36,7 +36,8 @@ struct Derived {
   std::optional<double> pressure;         ///< P
   std::optional<double> stiffness_level;  ///< kappa of [material]
   std::optional<double> shear_rate;
-  std::optional<double> inertial_number;    ///< I = shear_rate sqrt(m / (P d^(D-2)))
+  std::optional<double> compression_rate;   ///< axial, > 0 shortens
+  std::optional<double> inertial_number;    ///< I = rate sqrt(m / (P d^(D-2))), shear or axial rate
   std::optional<double> inertial_time;      ///< tau_i = sqrt(m / (P d^(D-2)))
   std::optional<double> contact_stiffness;  ///< K_N of a typical contact (hertz: at the deflection expected)
   std::optional<double> collision_time;     ///< tau_c of two grains of mean mass with that stiffness
@@ -48,12 +49,16 @@ struct Derived {
   double duration = 0;     ///< simulated time of the run
 };
 
-/// Throws InputError when the scene lacks what the derivation needs (e.g. a duration).
+/// Throws InputError when the scene lacks what the derivation needs (e.g. a duration). Of a scene with stages: its
+/// first stage, but for the duration, which is that of all (stages.hpp).
 Derived derive(const Scene& scene, const GrainFacts& facts);
 
 /// The drives of the scene's loading as modes of the cell (initial rates set; default inertia from the sample).
 template <int D>
 std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, const Sample<D>& sample);
+/// The same for grains of that total mass in a cell of that volume.
+template <int D>
+std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, double mass, double volume);
 
 /// (symbol, value with unit, where it comes from), in reading order: what `galet describe` prints.
 struct DerivedLine {
@@ -67,5 +72,7 @@ extern template GrainFacts grain_facts<2>(const Scene&, const Sample<2>&);
 extern template GrainFacts grain_facts<3>(const Scene&, const Sample<3>&);
 extern template std::vector<CellMode<2>> cell_modes<2>(const Scene&, const Derived&, const Sample<2>&);
 extern template std::vector<CellMode<3>> cell_modes<3>(const Scene&, const Derived&, const Sample<3>&);
+extern template std::vector<CellMode<2>> cell_modes<2>(const Scene&, const Derived&, double, double);
+extern template std::vector<CellMode<3>> cell_modes<3>(const Scene&, const Derived&, double, double);
 
 }  // namespace galet

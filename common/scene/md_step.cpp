@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/scene/loading.hpp"
+
 namespace galet {
 
 namespace {
@@ -26,7 +28,8 @@ Severity severity(const Scene& scene, const Derived& derived, const PairLaw& law
   const GrainFacts& grains = derived.grains;
   const double d = grains.mean_diameter;
   Severity found;
-  if (derived.pressure) found.force = (peaks ? 8 : 1) * *derived.pressure * std::pow(d, scene.dimension - 1);
+  const double stress = std::max(derived.pressure.value_or(0), largest_stress(scene.loading));
+  found.force = (peaks ? 8 : 1) * stress * std::pow(d, scene.dimension - 1);
   const double layers = std::pow(grains.count, 1.0 / scene.dimension);
   found.force = std::max(found.force, (peaks ? 4 : 1) * grains.mean_mass * norm(scene.loading.gravity) * layers);
   found.force += law.cohesion;

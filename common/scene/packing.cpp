@@ -9,6 +9,7 @@
 
 #include "common/core/error.hpp"
 #include "common/core/random.hpp"
+#include "common/io/checkpoint_sample.hpp"
 #include "common/io/lammps.hpp"
 #include "common/io/packing_csv.hpp"
 #include "common/scene/materials.hpp"
@@ -327,6 +328,17 @@ Sample<D> packing_sample(const Scene& scene) {
   return sample;
 }
 
+/// The state that another run has left; the scene's planes.
+template <int D>
+Sample<D> continued_sample(const Scene& scene) {
+  Sample<D> sample = checkpoint_sample<D>(initial_checkpoint(scene));
+  if (!scene.cell.periodic.empty() && sample.cell.periodic != periodicity<D>(scene))
+    throw InputError("cell.periodic: the checkpoint's cell is periodic in other directions");
+  sample.planes = scene_planes<D>(scene);
+  assign_materials<D>(scene, sample);
+  return sample;
+}
+
 double drawn_diameter(const SizeDistribution& sizes, RandomStream random) {
   if (sizes.kind == SizeKind::monodisperse) return sizes.mean;
   const double u = random.uniform();
@@ -355,7 +367,8 @@ std::vector<double> draw_diameters(const Scene& scene, int count) {
 
 double mean_diameter(const Scene& scene, const std::vector<double>& radius) {
   const SizeDistribution& sizes = scene.grains.diameter;
-  if (scene.initial.kind == InitialKind::listed || scene.initial.kind == InitialKind::packing)
+  const InitialKind kind = scene.initial.kind;
+  if (kind == InitialKind::listed || kind == InitialKind::packing || kind == InitialKind::checkpoint)
     return 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
   if (sizes.kind != SizeKind::discrete) return sizes.mean;
   return std::inner_product(sizes.diameters.begin(), sizes.diameters.end(), sizes.fractions.begin(), 0.0);
@@ -376,6 +389,8 @@ Sample<D> initial_sample(const Scene& scene) {
       break;
     case InitialKind::listed:
       return listed_sample<D>(scene);
+    case InitialKind::checkpoint:
+      return continued_sample<D>(scene);
   }
   if (scene.initial.speed > 0) set_random_velocities<D>(scene, sample);
   return sample;

@@ -1,4 +1,4 @@
-// Initial states: lattice, dilute random gas, listed grains, and packings read from files.
+// Initial states: lattice, dilute random gas, listed grains, packings read from files, and checkpoints of other runs.
 // (A compressed gas is a gas that the run loop compresses: see src/simulation.hpp.)
 //
 // Cell: origin at 0, a position is box * s with s in [0, 1) along periodic directions. Its size is cell.size; without

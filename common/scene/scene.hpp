@@ -109,15 +109,17 @@ enum class InitialKind {
   gas,             ///< random, no two grains touching
   compressed_gas,  ///< a gas compressed isotropically to `pressure` before the run starts
   packing,         ///< positions read from a CSV file or a LAMMPS data file
-  listed           ///< the scene's [[grain]] entries
+  listed,          ///< the scene's [[grain]] entries
+  checkpoint       ///< the state that another run of this engine has left in a checkpoint
 };
 
 struct InitialSpec {
   InitialKind kind = InitialKind::gas;
   double solid_fraction = 0.5;     ///< lattice, gas, compressed_gas: where the grains are first placed
   double speed = 0;                ///< root mean square of each velocity component at the start
-  std::string file;                ///< packing: path, relative to the scene file
+  std::string file;                ///< packing, checkpoint: path, relative to the scene file
   std::optional<double> friction;  ///< compressed_gas: friction while compressing (default: the material's)
+  bool fresh_contacts = false;     ///< checkpoint: forget what its contacts remember
 };
 
 struct CellSpec {
@@ -154,25 +156,39 @@ struct BodySpec {
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
-/// "isotropic" (one rate for all diagonal components; its stress is the mean normal stress).
+/// "isotropic" (one rate for all diagonal components; its stress is the mean normal stress). One of rate, stress and
+/// hold is given.
 struct CellDrive {
-  std::string component;
-  std::optional<double> rate;
-  std::optional<double> stress;  ///< positive in compression
+  std::string component = {};
+  std::optional<double> rate = {};
+  std::optional<double> stress = {};     ///< positive in compression
+  std::optional<double> stress_to = {};  ///< the stress goes there, linearly in time, until the end of the stage
+  bool hold = false;                     ///< the stress is held at what it is when the stage starts
 };
 
 enum class LoadingKind {
   none,         ///< the cell does not move
   plane_shear,  ///< L_xy given; sigma_yy held at `pressure`, or volume held when no pressure is given
   isotropic,    ///< mean stress held at `pressure`
+  oedometric,   ///< compressed along its axis, no lateral strain
+  biaxial,      ///< 2D: compressed along y, sigma_xx held at `pressure`
+  triaxial,     ///< 3D: compressed along z, sigma_xx and sigma_yy held at `pressure`
   drives        ///< the [[drive]] entries
 };
 
+/// What is imposed on the sample. The axis of oedometric, biaxial and triaxial loadings is the last direction.
 struct LoadingSpec {
   LoadingKind kind = LoadingKind::none;
   std::optional<double> pressure;
-  std::optional<double> shear_rate;       ///< plane_shear
-  std::optional<double> inertial_number;  ///< plane_shear, instead of shear_rate; needs a pressure
+  std::optional<double> pressure_to;       ///< the pressure held goes there, linearly in time, until the end
+  std::optional<double> shear_rate;        ///< plane_shear
+  std::optional<double> inertial_number;   ///< instead of shear_rate or compression_rate; needs a pressure
+  bool fixed_volume = false;               ///< plane_shear: `pressure` is only the unit of stress, the volume is held
+  std::optional<double> compression_rate;  ///< axial: -L along the axis, > 0 shortens the sample
+  std::optional<double> axial_stress;      ///< axial: in place of a rate
+  std::optional<double> axial_stress_to;   ///< axial: the stress goes there, linearly in time, until the end
+  bool hold_axial = false;                 ///< axial: the stress is held at what it is when the stage starts
+  std::optional<double> unit_pressure;     ///< of a stage (stages.hpp): P of kappa and I, where it is not `pressure`
   std::vector<CellDrive> drives;
   std::vector<double> gravity;  ///< acceleration, D components; empty: none
 };
@@ -200,13 +216,30 @@ struct CdSpec {
   bool compliance = false;    ///< contacts have the material's stiffness (implicit in the step), not none
 };
 
-struct RunSpec {
+/// When a run, or a stage of it, is over: at its time or strain at the latest, and sooner at one of the conditions.
+struct EndSpec {
   std::optional<double> duration;     ///< time simulated
-  std::optional<double> strain;       ///< shear strain simulated (plane_shear), instead of duration
-  double average_from = 0.5;          ///< measures are averaged from this fraction of the run on
-  int samples = 200;                  ///< number of measures over the run
-  std::optional<double> equilibrium;  ///< isotropic: stop once, for one inertial time, stress is within 1 % and the
-                                      ///< kinetic energy per grain (rattlers apart) is below this times P d^D
+  std::optional<double> strain;       ///< strain simulated, of the rate that the loading imposes; instead of duration
+  std::optional<double> equilibrium;  ///< stop once, for one inertial time, held stresses are within stress_tolerance
+                                      ///< and the kinetic energy per grain (rattlers apart) is below this times P d^D
+  std::optional<double> unbalanced;   ///< the same with the unbalanced force ratio (unbalanced_force.hpp) below this
+  std::optional<double> stress_tolerance;  ///< of these two: relative error of each held stress; default 0.01
+  std::string until;                       ///< stop once this component has reached ...
+  std::optional<double> until_stress;      ///< ... this stress (mean over one inertial time), or
+  std::optional<double> until_strain;      ///< ... this strain since the start, either way
+  int cycles = 0;  ///< > 0: go there and back so often: rates change sign, changing stresses return
+};
+
+struct RunSpec : EndSpec {
+  double average_from = 0.5;  ///< measures are averaged from this fraction of the run (of its last stage) on
+  int samples = 200;          ///< number of measures over the run, or over each stage
+};
+
+/// A part of a run with its own loading and end.
+struct StageSpec : EndSpec {
+  std::string name = {};  ///< default: its number
+  LoadingSpec loading = {};
+  std::optional<double> friction = {};  ///< of [material] in this stage
 };
 
 /// What `galet compare` sweeps. Empty lists take the scene's own single value.
@@ -237,6 +270,7 @@ struct Scene {
   MdSpec md;
   CdSpec cd;
   RunSpec run;
+  std::vector<StageSpec> stages;  ///< in their order; none: the run is one stage, of `loading` and `run`
   CompareSpec compare;
 };
 

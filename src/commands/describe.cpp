@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/scene/loading.hpp"
 #include "common/scene/packing.hpp"
+#include "common/scene/stages.hpp"
 #include "md/kernel/dispatch.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
@@ -35,6 +37,7 @@ struct EngineOutlook {
 struct Outlook {
   Scene scene;
   Derived derived;
+  std::vector<Derived> stages;
   std::vector<EngineOutlook> engines;
   std::vector<std::string> notes;
   int compare_rows = 0;
@@ -63,6 +66,7 @@ Outlook outlook_of(const Scene& scene) {
   const GrainFacts facts = with_dimension(
       scene.dimension, [&](auto dimension) { return grain_facts(scene, initial_sample<dimension>(scene)); });
   outlook.derived = derive(scene, facts);
+  outlook.stages = derive_stages(scene, facts);
   if (outlook.derived.md_dt)
     outlook.engines.push_back({EngineKind::md, estimate_cost(EngineKind::md, scene, outlook.derived)});
   outlook.engines.push_back({EngineKind::cd, estimate_cost(EngineKind::cd, scene, outlook.derived)});
@@ -72,6 +76,33 @@ Outlook outlook_of(const Scene& scene) {
   }
   add_notes(outlook);
   return outlook;
+}
+
+/// What each stage drives, and for how long.
+std::string stages_text(const Outlook& outlook) {
+  if (outlook.scene.stages.empty()) return "";
+  TextTable table({"stage", "at most", "mu", "drives", "ends"});
+  const std::vector<Scene> scenes = stage_scenes(outlook.scene);
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const EndSpec& end = scenes[k].run;
+    std::string drives, ends;
+    for (const CellDrive& drive : loading_drives(scenes[k], outlook.stages[k])) {
+      drives += fmt::format("{}{}", drives.empty() ? "" : ", ", drive.component);
+      if (drive.rate) drives += fmt::format(" rate {:.4g}", *drive.rate);
+      if (drive.hold) drives += " held";
+      if (drive.stress) drives += fmt::format(" stress {:.4g}", *drive.stress);
+      if (drive.stress_to) drives += fmt::format(" to {:.4g}", *drive.stress_to);
+    }
+    if (end.equilibrium) ends += fmt::format("equilibrium {:g} ", *end.equilibrium);
+    if (end.unbalanced) ends += fmt::format("unbalanced {:g} ", *end.unbalanced);
+    if (end.until_stress) ends += fmt::format("sigma_{} {:g} ", end.until, *end.until_stress);
+    if (end.until_strain) ends += fmt::format("strain {} {:g} ", end.until, *end.until_strain);
+    if (end.cycles > 0) drives += fmt::format(", {} cycles", end.cycles);
+    table.add({stage_name(outlook.scene, k), short_number(outlook.stages[k].duration),
+               short_number(scenes[k].material.friction), drives.empty() ? "nothing" : drives,
+               ends.empty() ? "-" : ends});
+  }
+  return "\n" + table.text();
 }
 
 std::string text_of(const Outlook& outlook) {
@@ -85,6 +116,7 @@ std::string text_of(const Outlook& outlook) {
   for (const DerivedLine& line : lines)
     text += fmt::format("{:<{}}  {:<{}}  {}\n", line.symbol, symbol_width, line.value, value_width, line.from);
 
+  text += stages_text(outlook);
   TextTable table({"engine", "dt", "steps", "cost, a guess"});
   for (const EngineOutlook& engine : outlook.engines)
     table.add({engine_name(engine.kind) + (engine.kind == outlook.scene.engine ? " (the scene's)" : ""),
@@ -107,6 +139,8 @@ std::string json_of(const Outlook& outlook, const std::string& path) {
   for (const EngineOutlook& engine : outlook.engines)
     json["engines"][engine_name(engine.kind)] = {
         {"dt", engine.cost.dt}, {"steps", engine.cost.steps}, {"estimated_seconds", engine.cost.seconds}};
+  for (std::size_t k = 0; k < outlook.scene.stages.size(); ++k)
+    json["stages"].push_back({{"name", stage_name(outlook.scene, k)}, {"longest", outlook.stages[k].duration}});
   json["compare"] = {{"rows", outlook.compare_rows}, {"estimated_seconds", outlook.compare_seconds}};
   json["notes"] = outlook.notes;
   return json.dump(2);

@@ -1,4 +1,5 @@
 // galet run: one scene with one engine, from its start or from a checkpoint.
+#include <cctype>
 #include <filesystem>
 #include <memory>
 
@@ -80,11 +81,24 @@ Job new_job(const RunArguments& arguments) {
   return job;
 }
 
-RunControl control_of(const RunArguments& arguments, const std::string& checkpoint_path, ProgressLine& line) {
+/// A stage's name as a part of a file's: what is no letter, digit, point or sign becomes "_".
+std::string file_part(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view(".+-").find(c) == std::string_view::npos)
+      c = '_';
+  return name;
+}
+
+RunControl control_of(const RunArguments& arguments, const Job& job, const std::string& checkpoint_path,
+                      ProgressLine& line) {
   RunControl control;
   control.stop = interrupted;
   control.checkpoint_every = arguments.checkpoint_every;
   control.checkpoint = [checkpoint_path](const Archive& archive) { write_checkpoint(checkpoint_path, archive); };
+  control.stage_end = [&job](int number, const std::string& name, const Archive& archive) {
+    const std::string file = fmt::format("{}_stage_{}_{}.h5", engine_name(job.engine), number, file_part(name));
+    write_checkpoint(path_in(job.directory, file), archive);
+  };
   if (line.shown())
     control.progress = [&line](const Progress& at) {
       const double percent = 100.0 * static_cast<double>(at.step) / static_cast<double>(at.steps);
@@ -133,7 +147,7 @@ int run_job(const RunArguments& arguments, const Job& job) {
 
   catch_interrupts();
   ProgressLine line;
-  const RunResult result = simulation.run(control_of(arguments, checkpoint_path, line));
+  const RunResult result = simulation.run(control_of(arguments, job, checkpoint_path, line));
   line.clear();
 
   std::vector<std::string> files = write_run(result, simulation, job.title, job.directory);

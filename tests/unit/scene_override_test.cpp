@@ -76,8 +76,7 @@ TEST(SceneOverride, PlacesItsMistakesAtTheOption) {
             "--set grains.cuont=5: error: unknown name \"cuont\" in [grains]; did you mean \"count\"?");
   EXPECT_EQ(override_message("run.strain", "5"),
             "--set run.strain=5: error: run.duration and run.strain exclude each other\n"
-            "--set run.strain=5: error: run.strain needs loading.kind = \"plane_shear\" or a [[drive]] that gives the "
-            "rate of \"xy\"");
+            "--set run.strain=5: error: run.strain needs a loading that imposes a rate");
 }
 
 TEST(SceneOverride, RefusesPathsThatLeadNowhere) {

@@ -43,7 +43,7 @@ stiffness_level = 1e4
 duration = 1
 pressure = 1
 )",
-       {R"(8:1: unknown name "pressure" in [run]; it belongs to [loading])"}},
+       {R"(8:1: unknown name "pressure" in [run]; it belongs to [loading] or [stage.loading])"}},
       {"symbol_for_name",
        R"([grains]
 count = 10
@@ -196,7 +196,8 @@ loading.gravity = [0, 0, 0, -1]
        sound + R"(loading.kind = "plane_sheer"
 loading.shear_rate = 1
 )",
-       {R"(5:16: loading.kind: expected "none", "plane_shear", "isotropic" or "drives", got )"
+       {R"(5:16: loading.kind: expected "none", "plane_shear", "isotropic", "oedometric", "biaxial", )"
+        R"("triaxial" or "drives", got )"
         R"("plane_sheer"; did you mean "plane_shear"?)"}},
       {"unknown_engine",
        sound + R"(engine = "fem"

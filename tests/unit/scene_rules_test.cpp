@@ -229,7 +229,7 @@ initial.file = "a.csv"
       {"file_without_packing",
        sound + R"(initial.file = "a.csv"
 )",
-       {R"(5:16: initial.file needs initial.kind = "packing")"}},
+       {R"(5:16: initial.file needs initial.kind = "packing" or "checkpoint")"}},
       {"compressed_gas_without_pressure",
        sound + R"(initial.kind = "compressed_gas"
 )",
@@ -321,7 +321,7 @@ loading.inertial_number = 0.1
       {"inertial_number_without_shear",
        sound + R"(loading.inertial_number = 0.1
 )",
-       {R"(5:27: loading.inertial_number needs loading.kind = "plane_shear")"}},
+       {R"(5:27: loading.inertial_number needs loading.kind = "plane_shear", "oedometric", "biaxial" or "triaxial")"}},
       {"isotropic_without_pressure",
        sound + R"(loading.kind = "isotropic"
 )",
@@ -415,13 +415,14 @@ material.restitution = 0.5
 material.normal_stiffness = 1e4
 run.strain = 1
 )",
-       {R"(4:14: run.strain needs loading.kind = "plane_shear" or a [[drive]] that gives the rate of "xy")"}},
+       {"4:14: run.strain needs a loading that imposes a rate"}},
       {"equilibrium_of_shear",
        sound + R"(run.equilibrium = 1e-6
 loading.kind = "plane_shear"
 loading.shear_rate = 1
 )",
-       {R"(5:19: run.equilibrium needs loading.kind = "isotropic")"}},
+       {"5:19: run.equilibrium needs a loading that imposes no rate: with one nothing comes to rest",
+        "5:19: run.equilibrium needs loading.pressure: stresses and energies are compared with it"}},
       {"sweeps_without_their_parameter",
        sound + R"(compare.inertial_numbers = [0.1]
 compare.stiffness_levels = [1e3]

@@ -296,7 +296,7 @@ TEST(Equilibrium, RattlersDontCount) {
   sample.cell.box = 2 * Mat<2>::Identity();
   sample.cell.periodic = {true, true};
   sample.spin = {0, 0, 100};
-  const EquilibriumTest<2> test(scene, derive(scene, grain_facts(scene, sample)), sample, 1e-6);
+  const EquilibriumTest<2> test(scene, derive(scene, grain_facts(scene, sample)));
 
   ContactColumns<2> contacts;
   contacts.i = {0, 0, 0};
