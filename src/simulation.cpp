@@ -85,9 +85,16 @@ void Simulation<D>::start_run(const Sample<D>& start) {
   if (scene_.run.equilibrium) equilibrium_.emplace(scene_, derived_, start_, *scene_.run.equilibrium);
   scale_ = measure_scale(derived_, kind_ == EngineKind::cd);
   scale_.energy_at_start = engine_->energy().total();
+  scale_.asked = MeasureSet(scene_.output.measures);
+  for (std::size_t a = 0; a < scene_.loading.gravity.size(); ++a) scale_.gravity[a] = scene_.loading.gravity[a];
+  for (const int wall : start_.wall) scale_.held.push_back(wall >= 0 ? 1 : 0);
+  guard_.emplace(scene_, derived_, start_, kind_);
   total_steps_ = steps_for(derived_.duration, engine_->dt());
   schedule_ = make_schedule(total_steps_, scene_.run.samples, sample_interval(kind_, derived_, engine_->dt()));
+  if (scene_.output.frames > 0)
+    schedule_.steps_per_frame = static_cast<double>(total_steps_) / std::min<long>(scene_.output.frames, total_steps_);
   series_.dimension = D;
+  series_.asked = scale_.asked;
   series_.budget = kind_ == EngineKind::md && scene_.md.energy_budget;
 }
 
@@ -109,6 +116,7 @@ Archive Simulation<D>::checkpoint() const {
   schedule_.save(archive);
   series_.save(archive);
   row_.save(archive);
+  profile_.save(archive);
   archive.reals["run.last"].assign(last_.values.begin(), last_.values.end());
   archive.integers["run.settled"] = {settled_};
   archive.reals["run.seconds"] = {cpu_seconds_, wall_seconds_};
@@ -126,6 +134,7 @@ void Simulation<D>::restore(const Archive& archive) {
   samples_ = schedule_.samples_until(engine_->steps());
   series_.restore(archive);
   row_.restore(archive);
+  profile_.restore(archive);
   const auto& last = real_column(archive, "run.last");
   std::copy_n(last.begin(), std::min<std::size_t>(last.size(), observable_count), last_.values.begin());
   settled_ = integer_column(archive, "run.settled").at(0);
@@ -210,7 +219,7 @@ RunResult Simulation<D>::run(const RunControl& control) {
   if (!prepare(control, result)) return result;
   Pace pace(control, engine_->steps(), total_steps_);
   try {
-    if (control.keep_last_good && pace.copy_due()) last_good_ = checkpoint();
+    if (pace.copy_due()) keep_last_good();
     result.ending = loop(control, pace);
   } catch (const RunError& error) {
     result.ending = Ending::failed;
@@ -224,16 +233,38 @@ RunResult Simulation<D>::run(const RunControl& control) {
 template <int D>
 Ending Simulation<D>::loop(const RunControl& control, Pace& pace) {
   const long allowed = std::min(total_steps_ - engine_->steps(), control.most_steps);
-  const long last = engine_->steps() + std::max(0L, allowed);
+  const long last = engine_->steps() + std::max(0L, allowed), every = scene_.guard.every;
+  const bool frames = control.frame && schedule_.steps_per_frame > 0;
+  if (frames && engine_->steps() == 0) write_frame(control);
   while (engine_->steps() < last) {
-    const long sample_step = schedule_.step_of(samples_ + 1);
-    take_steps(std::min({sample_step - engine_->steps(), last - engine_->steps(), pace.bite()}));
+    const long step = engine_->steps(), sample_step = schedule_.step_of(samples_ + 1);
+    const long frame_step = frames ? schedule_.step_of_frame(schedule_.frame_after(step)) : last;
+    const long guard_step = (step / every + 1) * every;
+    take_steps(std::min({sample_step, frame_step, guard_step, last, step + pace.bite()}) - step);
     pace.reached(engine_->steps());
+    const bool saves = pace.checkpoint_due();
+    if (engine_->steps() == guard_step || engine_->steps() == last || saves) guard_->check(engine_->snapshot());
     if (engine_->steps() == sample_step && take_sample(pace)) return Ending::equilibrium;
-    if (pace.checkpoint_due()) control.checkpoint(checkpoint());
+    if (frames && engine_->steps() == frame_step) write_frame(control);
+    if (saves) control.checkpoint(checkpoint());
     if (control.stop && engine_->steps() < total_steps_ && control.stop()) return Ending::interrupted;
   }
   return engine_->steps() < total_steps_ ? Ending::interrupted : Ending::finished;
+}
+
+/// Keeps the present state, if it is sound.
+template <int D>
+void Simulation<D>::keep_last_good() {
+  guard_->check(engine_->snapshot());
+  last_good_ = checkpoint();
+}
+
+template <int D>
+void Simulation<D>::write_frame(const RunControl& control) {
+  Frame frame{engine_->steps(), {}};
+  for (long k = 0; schedule_.step_of_frame(k) <= engine_->steps(); ++k)
+    frame.times.push_back(static_cast<double>(schedule_.step_of_frame(k)) * engine_->dt());
+  control.frame(frame);
 }
 
 template <int D>
@@ -252,7 +283,10 @@ bool Simulation<D>::take_sample(Pace& pace) {
   row_.add(last_);
   if (row_.samples() == schedule_.samples_per_row) {
     series_.rows.push_back(row_.finish(scale_));
-    if (pace.copy_due()) last_good_ = checkpoint();
+    if (scale_.asked.has(MeasureKind::profile) && engine_->time() > scene_.run.average_from * derived_.duration)
+      profile_.add(layer_profile(engine_->snapshot(), scene_.output.profile_layers,
+                                 static_cast<int>(scene_.output.profile_direction)));
+    if (pace.copy_due()) keep_last_good();
   }
   if (!equilibrium_) return false;
   settled_ = equilibrium_->reached(last_, engine_->snapshot()) ? settled_ + 1 : 0;
@@ -277,6 +311,7 @@ void Simulation<D>::report(RunResult& result) const {
   if (RowAverager rest = row_; ended && rest.samples() > 0) result.series.rows.push_back(rest.finish(scale_));
   result.averages = averages(result.series, scale_, scene_.run.average_from);
   result.last = last_;
+  if (ended) result.measures = final_measures(scene_, derived_, start_, engine_->snapshot(), profile_);
   result.solver = engine_->solver_summary();
   result.cpu_seconds = cpu_seconds_;
   result.wall_seconds = wall_seconds_;

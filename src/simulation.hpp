@@ -22,6 +22,7 @@
 #include "common/scene/sample.hpp"
 #include "common/scene/scene.hpp"
 #include "src/equilibrium.hpp"
+#include "src/guard.hpp"
 #include "src/pace.hpp"
 #include "src/run_control.hpp"
 #include "src/run_result.hpp"
@@ -50,6 +51,10 @@ class Simulation {
 
   const Scene& scene() const { return scene_; }
   const Derived& derived() const { return derived_; }
+  /// What the dimensionless numbers of the measures are referred to.
+  const MeasureScale& scale() const { return scale_; }
+  /// Of each grain.
+  const std::vector<int>& material() const { return compression_ ? compression_->start_.material : start_.material; }
   bool compressing() const { return compression_ != nullptr; }
   /// The engine of the present stage.
   Engine<D>& engine() { return compression_ ? compression_->engine() : *engine_; }
@@ -71,6 +76,8 @@ class Simulation {
   bool settle(const RunResult& gas, RunResult& result);
   Ending loop(const RunControl& control, Pace& pace);
   void take_steps(long count);
+  void keep_last_good();
+  void write_frame(const RunControl& control);
   bool take_sample(Pace& pace);
   void report(RunResult& result) const;
   void add_notes(RunResult& result) const;
@@ -85,6 +92,7 @@ class Simulation {
   Sample<D> start_;  ///< what the engine was built from
   std::unique_ptr<Engine<D>> engine_;
   std::optional<EquilibriumTest<D>> equilibrium_;
+  std::optional<Guard<D>> guard_;
   MeasureScale scale_;
   Schedule schedule_;
   long total_steps_ = 0;
@@ -92,6 +100,7 @@ class Simulation {
   long settled_ = 0;  ///< of the latest samples, how many in a row showed equilibrium
   RowAverager row_;
   TimeSeries series_;
+  ProfileAverage profile_;
   Measurement last_;
   double cpu_seconds_ = 0, wall_seconds_ = 0;
   std::optional<Archive> last_good_;

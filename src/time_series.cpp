@@ -129,17 +129,37 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
   return result;
 }
 
+bool shown(Observable observable, const TimeSeries& series) {
+  switch (info(observable).shown) {
+    case Shown::always:
+      return true;
+    case Shown::in_3d:
+      return series.dimension == 3;
+    case Shown::with_budget:
+      return series.budget;
+    case Shown::with_fabric:
+      return series.asked.has(MeasureKind::fabric);
+    case Shown::with_friction:
+      return series.asked.has(MeasureKind::friction);
+    case Shown::with_temperature:
+      return series.asked.has(MeasureKind::temperature);
+    case Shown::with_balance:
+      return series.asked.has(MeasureKind::balance);
+  }
+  return false;
+}
+
 CsvTable to_table(const TimeSeries& series) {
   CsvTable table;
   for (int k = 0; k < observable_count; ++k) {
-    if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
+    if (!shown(static_cast<Observable>(k), series)) continue;
     table.comments.push_back(fmt::format("{}: {}", observable_table[k].name, observable_table[k].meaning));
     table.columns.push_back({std::string(observable_table[k].name), ""});
   }
   for (const Measurement& row : series.rows) {
     std::vector<CsvCell>& cells = table.rows.emplace_back();
     for (int k = 0; k < observable_count; ++k) {
-      if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
+      if (!shown(static_cast<Observable>(k), series)) continue;
       cells.emplace_back();
       if (!std::isnan(row.values[k])) cells.back() = row.values[k];
     }

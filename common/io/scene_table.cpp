@@ -414,7 +414,7 @@ const std::vector<SceneField>& scene_fields() {
     Rows rows;
     for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material,
                            add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_walls, add_loading,
-                           add_drives, add_engines, add_run, add_compare})
+                           add_drives, add_engines, add_run, add_output, add_guard, add_compare})
       add(rows);
     return rows;
   }();
@@ -470,6 +470,10 @@ const std::vector<SceneSection>& scene_sections() {
       {.name = "md", .doc = "Numerical parameters of the soft engine; a scene for cd may have them too."},
       {.name = "cd", .doc = "Numerical parameters of the rigid engine; a scene for md may have them too."},
       {.name = "run", .doc = "How long, and what is averaged. One of `duration` and `strain` is needed."},
+      {.name = "output",
+       .doc = "What a run measures and writes beyond the series of every run; nothing else is computed."},
+      {.name = "guard",
+       .doc = "When a run is stopped because its state is no longer sound. The latest sound state is kept."},
       {.name = "compare", .doc = "What `galet compare` sweeps."}};
   return sections;
 }

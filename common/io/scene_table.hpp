@@ -19,4 +19,8 @@ void add_other_materials(Rows& rows);
 void add_pairs(Rows& rows);
 void add_groups(Rows& rows);
 
+// scene_table_output.cpp
+void add_output(Rows& rows);
+void add_guard(Rows& rows);
+
 }  // namespace galet::scene_table

@@ -393,6 +393,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_walls(report);
   check_loading(report);
   check_run(report);
+  check_output(report);
   check_compare(report);
   return report.findings;
 }

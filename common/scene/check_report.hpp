@@ -52,4 +52,7 @@ void check_relaxers(Report& report);
 // check_walls.cpp
 void check_walls(Report& report);
 
+// check_output.cpp
+void check_output(Report& report);
+
 }  // namespace galet::scene_check
