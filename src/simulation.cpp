@@ -283,7 +283,8 @@ bool Simulation<D>::take_sample(Pace& pace) {
   row_.add(last_);
   if (row_.samples() == schedule_.samples_per_row) {
     series_.rows.push_back(row_.finish(scale_));
-    if (scale_.asked.has(MeasureKind::profile) && engine_->time() > scene_.run.average_from * derived_.duration)
+    if (scale_.asked.has(MeasureKind::profile) &&
+        static_cast<double>(engine_->steps()) > scene_.run.average_from * static_cast<double>(total_steps_))
       profile_.add(layer_profile(engine_->snapshot(), scene_.output.profile_layers,
                                  static_cast<int>(scene_.output.profile_direction)));
     if (pace.copy_due()) keep_last_good();

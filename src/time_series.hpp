@@ -28,6 +28,7 @@ class RowAverager {
  private:
   Measurement sums_;
   int samples_ = 0;
+  std::array<int, observable_count> counts_{};  ///< samples in which the observable had a value
 };
 
 struct TimeSeries {
@@ -43,7 +44,8 @@ struct TimeSeries {
   void restore(const Archive& archive);
 };
 
-/// Averages over the rows whose time is above `from`, each with its standard error by blocking.
+/// Averages over the rows whose time is above `from`, each with its standard error by blocking. Rows in which an
+/// observable has no value don't count for it.
 struct Averages {
   double from = 0;
   int rows = 0;
