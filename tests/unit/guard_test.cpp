@@ -163,8 +163,9 @@ TEST(Guard, EndsRunsAndKeepsTheLastSoundState) {
     EXPECT_NE(result.failure.find("guard.energy = 1e-06"), std::string::npos) << result.failure;
   }
   Scene scene = gas_scene();
-  scene.material.stiffness_level = 20;
+  scene.material.stiffness_level = 100;
   scene.guard.overlap = 1e-3;
+  scene.guard.every = 5;
   const RunResult result = Simulation<2>(scene, EngineKind::md).run();
   EXPECT_NE(result.failure.find("guard.overlap = 0.001"), std::string::npos) << result.failure;
 }

@@ -47,11 +47,11 @@ std::set<std::string> columns_of(const CsvTable& table) {
   return names;
 }
 
-class BothEngines : public testing::TestWithParam<EngineKind> {};
+class OutputOfEngines : public testing::TestWithParam<EngineKind> {};
 const auto name_of = [](const auto& info) { return engine_name(info.param); };
-INSTANTIATE_TEST_SUITE_P(Output, BothEngines, testing::Values(EngineKind::md, EngineKind::cd), name_of);
+INSTANTIATE_TEST_SUITE_P(Output, OutputOfEngines, testing::Values(EngineKind::md, EngineKind::cd), name_of);
 
-TEST_P(BothEngines, MeasureOnlyWhatWasAskedFor) {
+TEST_P(OutputOfEngines, MeasureOnlyWhatWasAskedFor) {
   Scene scene = shear_scene();
   const RunResult plain = Simulation<2>(scene, GetParam()).run();
   scene.output.measures = all_measures();
@@ -94,7 +94,7 @@ TEST_P(BothEngines, MeasureOnlyWhatWasAskedFor) {
   EXPECT_LE(final.moduli->bulk, final.moduli->affine_bulk);
 }
 
-TEST_P(BothEngines, WriteWhatWasAskedFor) {
+TEST_P(OutputOfEngines, WriteWhatWasAskedFor) {
   Scene scene = shear_scene();
   scene.output.measures = {"profile", "gaps", "indeterminacy", "voronoi", "forces", "moduli"};
   Simulation<2> simulation(scene, GetParam());
@@ -117,7 +117,7 @@ TEST_P(BothEngines, WriteWhatWasAskedFor) {
 }
 
 // A run that is stopped and resumed has the same profile and the same columns, bit for bit, and writes each frame once.
-TEST_P(BothEngines, restart) {
+TEST_P(OutputOfEngines, SameAfterRestart_restart) {
   Scene scene = shear_scene();
   scene.output.measures = {"profile", "fabric", "friction", "balance", "temperature"};
   scene.output.frames = 4;

@@ -452,8 +452,8 @@ output.measures = ["friction", "voronoi", "moduli"]
 output.profile_direction = "z"
 )",
        {R"(5:25: output.profile_layers needs "profile" in output.measures)",
-        R"(6:28: output.profile_direction: "z" needs dimension = 3)",
-        R"(6:28: output.profile_direction needs "profile" in output.measures)"}},
+        R"(6:28: output.profile_direction needs "profile" in output.measures)",
+        R"(6:28: output.profile_direction: "z" needs dimension = 3)"}},
       {"formats_without_frames",
        sound + R"(output.formats = ["xyz"]
 )",
