@@ -31,8 +31,11 @@
 // the scene; impulses are force * time, offset is a velocity. Signs: core/conventions.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "common/core/column.hpp"
@@ -246,6 +249,15 @@ inline Reaction<Y> composed(const Vec<Y.dim>& normal, const Components<Y>& parts
     if constexpr (Y.rolling) reaction[2] = parts.rolling;
   }
   return reaction;
+}
+
+/// |r_T| over its bound mu r_N, at most 1; not a number without friction.
+template <Layout Y>
+inline double mobilised_friction(const Vec<Y.dim>& normal, const Reaction<Y>& reaction, double friction) {
+  if (!(friction > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const Components<Y> parts = components<Y>(normal, reaction);
+  const double tangential = std::sqrt(squared(parts.tangential));
+  return tangential > 0 ? tangential / std::max(friction * parts.normal, tangential) : 0;
 }
 
 /// Relative motion of contact k by direction, for the velocity gradient L of the cell.

@@ -467,6 +467,10 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       shown_.gap.push_back(frame.gap);
       shown_.force.push_back((impulse_vector<Y>(frame.normal, reaction) - attracted * frame.normal) / last_dt_);
       if constexpr (Y.rolling) shown_.torque.push_back(torque_impulse<Y>(reaction) / last_dt_);
+      if constexpr (Y.friction) {
+        const double friction = laws_.pairs[law_index(bodies_, list_.pairs(), row, laws_.materials)].friction;
+        shown_.mobilised.push_back(mobilised_friction<Y>(frame.normal, reaction, friction));
+      }
       if (cohesive_) shown_.touching.push_back(pressed || frame.gap <= 0);
     }
   }

@@ -1,9 +1,12 @@
 // From the law of a pair of materials (common/scene/pair_law.hpp) to the constants that kernels read (laws/terms.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/core/types.hpp"
+#include "common/geometry/contact_frame.hpp"
 #include "common/scene/pair_law.hpp"
 #include "md/laws/terms.hpp"
 
@@ -49,6 +52,20 @@ inline double cohesive_energy(const LawKind& kind, const PairTerms<double>& law,
     return gap < law.range ? -0.5 * law.cohesion * law.range * (1 - gap / law.range) * (1 - gap / law.range) : 0;
   if (kind.square_root) return -2.0 / 3 * std::sqrt(-4 * coefficient * law.cohesion * gap) * -gap;
   return -law.cohesion * (0.5 * law.range - gap);
+}
+
+/// |F_T| of a contact over Coulomb's bound (laws/normal.hpp), at most 1; not a number without friction. With
+/// tangential viscosity of the `elastic` convention F_T holds a part that the bound does not limit.
+template <int D>
+double mobilised_friction(const LawKind& kind, const PairTerms<double>& law, double coefficient,
+                          const ContactFrame<D>& frame, const Vec<D>& force) {
+  if (!(law.friction > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const double deflection = std::max(0.0, -frame.gap), normal = force.dot(frame.normal);
+  double bound = coefficient * deflection * (kind.hertz ? std::sqrt(deflection) : 1);
+  if (kind.total)
+    bound = normal + (kind.square_root ? std::sqrt(4 * coefficient * law.cohesion * deflection) : law.cohesion);
+  const double tangential = (force - normal * frame.normal).norm();
+  return tangential > 0 ? tangential / std::max(law.friction * bound, tangential) : 0;
 }
 
 }  // namespace galet::md

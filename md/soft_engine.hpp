@@ -400,6 +400,9 @@ class SoftEngine final : public Engine<Y.dim> {
       shown_.gap.push_back(frame.gap);
       shown_.force.push_back(contacts_.force(row));
       if constexpr (Y.rolling) shown_.torque.push_back(contacts_.torque(row));
+      if constexpr (Y.friction)
+        shown_.mobilised.push_back(mobilised_friction(kind_, terms_[contacts_.law(row)], contacts_.coefficient(row),
+                                                      frame, contacts_.force(row)));
       if (range_ > 0) shown_.touching.push_back(contacts_.touches(row));
     }
   }

@@ -131,7 +131,7 @@ void fill(CompareRow& row, const RunResult& run) {
 template <int D>
 void draw(CompareRow& row, Simulation<D>& simulation) {
   const Snapshot<D> snapshot = simulation.engine().snapshot();
-  row.profile = velocity_profile(snapshot, profile_layers);
+  row.profile = layer_profile(snapshot, profile_layers);
   if constexpr (D == 2) {
     SvgOptions options;
     options.title = simulation.scene().title;

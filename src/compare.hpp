@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/measure/block_average.hpp"
-#include "common/measure/velocity_profile.hpp"
+#include "common/measure/profile.hpp"
 #include "common/scene/scene.hpp"
 #include "src/rigid_limit.hpp"
 #include "src/run_result.hpp"

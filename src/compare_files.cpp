@@ -64,8 +64,8 @@ Figure profile_figure(const Comparison& comparison) {
     series.label = series_label(row.plan.engine, row.plan.inertial_number);
     series.line = true;
     for (const ProfileRow& layer : row.profile) {
-      series.x.push_back(layer.velocity);
-      series.y.push_back(layer.y);
+      series.x.push_back(layer.velocity.x());
+      series.y.push_back(layer.position);
     }
     figure.series.push_back(std::move(series));
   }

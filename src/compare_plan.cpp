@@ -22,6 +22,7 @@ bool has_stiffness(const Scene& scene) {
 
 Scene in_state(const Scene& scene, std::optional<double> inertial_number) {
   Scene state = scene;
+  state.output = OutputSpec{};  // rows are compared by what every run measures
   if (inertial_number) {
     state.loading.inertial_number = inertial_number;
     state.loading.shear_rate.reset();

@@ -18,6 +18,7 @@ Scene compression_scene(const Scene& scene, const Derived& derived) {
   gas.run.duration = compression_limit * *derived.inertial_time;
   gas.run.equilibrium = compression_equilibrium;
   gas.run.samples = 400;
+  gas.output = OutputSpec{};
   gas.compare = CompareSpec{};
   return gas;
 }

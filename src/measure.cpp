@@ -3,9 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "common/measure/balance.hpp"
 #include "common/measure/coordination.hpp"
+#include "common/measure/fabric.hpp"
+#include "common/measure/mobilisation.hpp"
 #include "common/measure/numbers.hpp"
 #include "common/measure/stress.hpp"
+#include "common/measure/temperature.hpp"
 
 namespace galet {
 
@@ -56,6 +60,38 @@ void put_budget(Measurement& row, const EnergyFlows& flows, double change) {
   row[Observable::dissipated_pivoting] = flows.pivoting;
   row[Observable::dissipated_relaxation] = flows.relaxation;
   row[Observable::energy_residual] = change - flows.work + flows.dissipated();
+}
+
+/// What output.measures asks for at each sample; not a number where it does not.
+template <int D>
+void put_asked(Measurement& row, const Snapshot<D>& snapshot, const MeasureScale& scale) {
+  for (int k = 0; k < observable_count; ++k)
+    if (observable_table[k].shown >= Shown::with_fabric) row.values[k] = nothing;
+  if (scale.asked.has(MeasureKind::fabric)) {
+    const Anisotropies all = anisotropies(fabric(snapshot));
+    row[Observable::anisotropy_contact] = all.contact;
+    row[Observable::anisotropy_normal] = all.normal;
+    row[Observable::anisotropy_tangential] = all.tangential;
+    row[Observable::anisotropy_branch] = all.branch;
+  }
+  if (scale.asked.has(MeasureKind::friction)) {
+    const Mobilisation used = mobilisation(snapshot);
+    row[Observable::mobilised] = used.mean;
+    row[Observable::sliding] = used.sliding;
+  }
+  if (scale.asked.has(MeasureKind::temperature)) {
+    const Temperature temperature = granular_temperature(snapshot);
+    row[Observable::temperature] = temperature.translational;
+    row[Observable::rotational_temperature] = temperature.rotational;
+  }
+  if (scale.asked.has(MeasureKind::balance)) {
+    std::vector<char> loose = rattlers(snapshot, scale.friction);
+    for (std::size_t i = 0; i < scale.held.size(); ++i)
+      if (scale.held[i]) loose[i] = 1;
+    const Balance rest = unbalance<D>(snapshot, loose, scale.gravity.head<D>());
+    row[Observable::unbalanced_force] = rest.force;
+    row[Observable::unbalanced_torque] = rest.torque;
+  }
 }
 
 }  // namespace
@@ -110,6 +146,7 @@ Measurement measure(Engine<D>& engine, const MeasureScale& scale) {
   const EnergyParts energy = engine.energy();
   put_energy(row, energy, snapshot.grains());
   put_budget(row, engine.energy_flows(), energy.total() - scale.energy_at_start);
+  put_asked(row, snapshot, scale);
   complete(row, scale);
   return row;
 }

@@ -5,6 +5,7 @@
 
 #include "common/engine/engine.hpp"
 #include "common/scene/derive.hpp"
+#include "common/scene/measure_names.hpp"
 #include "src/observable.hpp"
 
 namespace galet {
@@ -18,6 +19,9 @@ struct MeasureScale {
   double shear_rate = 0;       ///< L_xy imposed; 0 without shear
   std::optional<PairLaw> law;  ///< of [material], for kappa; none for rigid grains
   double energy_at_start = 0;  ///< total energy that the budget starts from
+  MeasureSet asked;            ///< by output.measures
+  Vec<3> gravity = Vec<3>::Zero();
+  std::vector<char> held;  ///< 1 for a grain that is glued to a rigid body; empty: none is
 };
 
 MeasureScale measure_scale(const Derived& derived, bool rigid);

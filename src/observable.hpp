@@ -48,6 +48,16 @@ enum class Observable {
   energy_residual,
   inertial_number,
   stiffness_level,
+  anisotropy_contact,
+  anisotropy_normal,
+  anisotropy_tangential,
+  anisotropy_branch,
+  mobilised,
+  sliding,
+  temperature,
+  rotational_temperature,
+  unbalanced_force,
+  unbalanced_torque,
   count
 };
 
@@ -62,7 +72,15 @@ enum class Reduction {
 };
 
 /// Where an observable is a column.
-enum class Shown { always, in_3d, with_budget /**< only where md accounts for energy */ };
+enum class Shown {
+  always,
+  in_3d,
+  with_budget,  ///< only where md accounts for energy
+  with_fabric,  ///< these only where output.measures asks for them
+  with_friction,
+  with_temperature,
+  with_balance
+};
 
 struct ObservableInfo {
   std::string_view name;
@@ -115,6 +133,17 @@ inline constexpr std::array<ObservableInfo, observable_count> observable_table =
      "all energy - that at the start - work + dissipated: the error of the budget"},
     {"I", Reduction::derived, Shown::always, "inertial number as realised"},
     {"kappa", Reduction::derived, Shown::always, "stiffness level as realised; none for rigid grains"},
+    {"a_c", Reduction::mean, Shown::with_fabric, "anisotropy of contact directions along the stress"},
+    {"a_n", Reduction::mean, Shown::with_fabric, "anisotropy of normal forces"},
+    {"a_t", Reduction::mean, Shown::with_fabric, "anisotropy of tangential forces"},
+    {"a_l", Reduction::mean, Shown::with_fabric, "anisotropy of branches, and of how they go with forces"},
+    {"mobilised", Reduction::mean, Shown::with_friction, "mean of |F_T| / its bound over the contacts"},
+    {"sliding", Reduction::mean, Shown::with_friction, "share of the contacts that slide"},
+    {"T", Reduction::mean, Shown::with_temperature, "granular temperature, an energy"},
+    {"T_rot", Reduction::mean, Shown::with_temperature, "granular temperature of rotations"},
+    {"unbalanced_force", Reduction::mean, Shown::with_balance, "mean resultant on a grain / mean contact force"},
+    {"unbalanced_torque", Reduction::mean, Shown::with_balance,
+     "mean torque on a grain / mean contact force times d/2"},
 }};
 
 inline const ObservableInfo& info(Observable observable) { return observable_table[static_cast<int>(observable)]; }

@@ -61,8 +61,11 @@ Scene stored_scene(const Archive& archive, const std::vector<Override>& more) {
     throw InputError("the checkpoint holds no scene text: it was written by a program, which alone can resume it");
   std::vector<Mistake> mistakes;
   for (const Override& change : more)
-    if (change.path.rfind("run.", 0) != 0)
-      mistakes.push_back({"", 0, 0, "--set " + change.path + ": a resumed run keeps its scene; only run.* may change"});
+    if (change.path.rfind("run.", 0) != 0 && change.path.rfind("output.", 0) != 0 &&
+        change.path.rfind("guard.", 0) != 0)
+      mistakes.push_back(
+          {"", 0, 0,
+           "--set " + change.path + ": a resumed run keeps its scene; only run.*, output.* and guard.* may change"});
   if (!mistakes.empty()) throw InputError(mistakes);
 
   std::vector<Override> overrides = stored_overrides(archive);

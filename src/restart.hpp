@@ -21,8 +21,8 @@ std::vector<Override> stored_overrides(const Archive& archive);
 EngineKind stored_engine(const Archive& archive);
 
 /// Reads the stored scene again, with the stored overrides and then `more`. A resumed run keeps its scene, so `more`
-/// may only change how long it runs: fields of [run]. Throws InputError when it changes more, or when the checkpoint
-/// has no scene text.
+/// may only change how long it runs, what it writes and when it is stopped: fields of [run], [output] and [guard].
+/// Throws InputError when it changes more, or when the checkpoint has no scene text.
 Scene stored_scene(const Archive& archive, const std::vector<Override>& more = {});
 
 /// `fresh`, the state of an engine that has just been started at the grains of the checkpoint `state`, with the

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/core/archive.hpp"
 
@@ -19,10 +20,17 @@ struct Progress {
   double seconds_left = 0;  ///< of wall time, at the pace so far
 };
 
+/// A state that is to be written (output.frames).
+struct Frame {
+  long step = 0;
+  std::vector<double> times;  ///< of the frames from the first to this one: its index is the last of them
+};
+
 struct RunControl {
   std::string_view stage = "run";                  ///< what progress calls a run without stages
   std::function<void(const Progress&)> progress;   ///< called several times per second at most
   std::function<bool()> stop;                      ///< true: stop after the current steps (a fraction of a second)
+  std::function<void(const Frame&)> frame;         ///< called at output.frames + 1 states, the start among them
   std::function<void(const Archive&)> checkpoint;  ///< called every `checkpoint_every` seconds of wall time
   /// Of a scene with stages: called at the end of each one with its number (from 1), its name and the state.
   std::function<void(int, const std::string&, const Archive&)> stage_end;

@@ -8,6 +8,7 @@
 #include "common/io/files.hpp"
 #include "common/io/svg.hpp"
 #include "src/engines.hpp"
+#include "src/final_measures_json.hpp"
 #include "src/picture_files.hpp"
 
 namespace galet {
@@ -38,6 +39,10 @@ std::vector<std::string> write_run(const RunResult& result, Simulation<D>& simul
   write_csv(files[0], to_table(result.series));
   write_file(files[1], to_json(result, scene) + "\n");
   add_figure(files, path(engine + (result.strain != 0 ? "_mu_star" : "_Phi")), history(result, scene));
+  for (const NamedTable& measure : measure_tables(result.measures, simulation.scale())) {
+    files.push_back(path(engine + "_" + measure.name + ".csv"));
+    write_csv(files.back(), measure.table);
+  }
   if constexpr (D == 2) {
     if (result.ending != Ending::failed)
       add_picture(files, path("sample_" + engine), force_chain_svg(simulation.engine().snapshot(), {.title = scene}));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/engines.hpp"
+#include "src/final_measures_json.hpp"
 #include "src/text_table.hpp"
 
 namespace galet {
@@ -14,16 +15,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keeps the order in which keys are written; NaN becomes null
 
-bool averaged(int k, int dimension) {
+bool averaged(int k, const TimeSeries& series) {
   const auto observable = static_cast<Observable>(k);
   // Time, strains and other sums since the start have no mean; the budget is shown by itself.
-  return info(observable).reduction != Reduction::latest && shown(observable, dimension, false);
+  return info(observable).reduction != Reduction::latest && shown(observable, series);
 }
 
 Json averages_json(const RunResult& result) {
   Json json{{"from_time", result.averages.from}, {"rows", result.averages.rows}};
   for (int k = 0; k < observable_count; ++k)
-    if (averaged(k, result.layout.dim))
+    if (averaged(k, result.series))
       json[std::string(observable_table[k].name)] = {{"value", result.averages.values[k].value},
                                                      {"error", result.averages.values[k].error}};
   return json;
@@ -32,7 +33,7 @@ Json averages_json(const RunResult& result) {
 Json sample_json(const RunResult& result, const Measurement& sample) {
   Json json;
   for (int k = 0; k < observable_count; ++k)
-    if (shown(static_cast<Observable>(k), result.layout.dim, result.series.budget))
+    if (shown(static_cast<Observable>(k), result.series))
       json[std::string(observable_table[k].name)] = sample.values[k];
   return json;
 }
@@ -106,6 +107,7 @@ std::string to_json(const RunResult& result, const std::string& scene) {
   json["averages"] = averages_json(result);
   json["last"] = sample_json(result, result.last);
   if (!result.stages.empty()) json["stages"] = stages_json(result);
+  json["measures"] = measures_json(result.measures);
   json["compression"] = compression_json(result.compression);
   json["solver"] = solver_json(result.solver);
   json["seconds"] = result.cpu_seconds;
@@ -179,7 +181,7 @@ std::string summary(const RunResult& result) {
   if (result.averages.rows > 0) {
     TextTable table({"quantity", fmt::format("mean from time {:g} on", result.averages.from), "last"});
     for (int k = 0; k < observable_count; ++k) {
-      if (!averaged(k, result.layout.dim) || std::isnan(result.averages.values[k].value)) continue;
+      if (!averaged(k, result.series) || std::isnan(result.averages.values[k].value)) continue;
       const bool tiny = std::abs(result.averages.values[k].value) < 1e-3;
       const Estimate& mean = result.averages.values[k];
       table.add({std::string(observable_table[k].name), tiny ? short_number(mean.value, 3) : with_error(mean),
@@ -188,6 +190,7 @@ std::string summary(const RunResult& result) {
     text += table.text("  ");
   }
   if (result.series.budget) text += budget_text(result.last);
+  text += measures_text(result.measures);
   if (result.solver.steps > 0) text += solver_text(result.solver);
   const double steps_per_second = result.wall_seconds > 0 ? static_cast<double>(result.steps) / result.wall_seconds : 0;
   text += fmt::format("cost: {} of steps ({:.0f} steps/s)\n", duration_text(result.wall_seconds), steps_per_second);

@@ -13,6 +13,7 @@
 #include "common/engine/engine.hpp"
 #include "common/scene/scene.hpp"
 #include "src/compression.hpp"
+#include "src/final_measures.hpp"
 #include "src/time_series.hpp"
 
 namespace galet {
@@ -50,8 +51,9 @@ struct RunResult {
   long steps = 0;
   long total_steps = 0;
   TimeSeries series;
-  Averages averages;  ///< of the last stage, from run.average_from on
-  Measurement last;   ///< the latest single sample
+  Averages averages;       ///< of the last stage, from run.average_from on
+  Measurement last;        ///< the latest single sample
+  FinalMeasures measures;  ///< of the last state: those that output.measures asks for
   SolverSummary solver;
   double cpu_seconds = 0;   ///< of the calling thread, in steps only: measures and files don't count
   double wall_seconds = 0;  ///< of the steps

@@ -9,11 +9,16 @@ namespace galet {
 struct Schedule {
   double steps_per_sample = 1;  ///< >= 1
   int samples_per_row = 1;
+  double steps_per_frame = 0;  ///< 0: no frames
 
   /// Step at whose end sample number `sample` (from 1) is taken.
   long step_of(long sample) const;
   /// Number of samples taken in the first `steps` steps.
   long samples_until(long steps) const;
+
+  /// Step of frame number `frame` (from 0), and the first frame after `steps` steps.
+  long step_of_frame(long frame) const;
+  long frame_after(long steps) const;
 
   void save(Archive& archive) const;
   void restore(const Archive& archive);

@@ -93,8 +93,14 @@ void Simulation<D>::start_run(const Sample<D>& start, std::size_t stage) {
   derived_ = derive(scene_, facts);
   course_ = StageCourse<D>(scene_, facts, stage);
   engine_ = make_engine<D>(kind_, course_.scene(), course_.derived(), start_);
+  guard_.emplace(scene_, derived_, start_, kind_);
   begin_course();
+  const long total = course_.total_steps();
+  if (scene_.output.frames > 0)
+    schedule_.steps_per_frame =
+        static_cast<double>(total) / static_cast<double>(std::min<long>(scene_.output.frames, total));
   series_.dimension = D;
+  series_.asked = scale_.asked;
   series_.budget = kind_ == EngineKind::md && scene_.md.energy_budget;
 }
 
@@ -122,8 +128,14 @@ void Simulation<D>::start_stage() {
   const double energy_at_start = scale_.energy_at_start;
   scale_ = measure_scale(course_.derived(), kind_ == EngineKind::cd);
   scale_.energy_at_start = energy_at_start;
+  scale_.asked = MeasureSet(scene_.output.measures);
+  const std::vector<double>& gravity = course_.scene().loading.gravity;
+  for (std::size_t a = 0; a < gravity.size(); ++a) scale_.gravity[a] = gravity[a];
+  for (const int body : start_.body) scale_.held.push_back(body >= 0 ? 1 : 0);
+  const double steps_per_frame = schedule_.steps_per_frame;
   schedule_ = make_schedule(course_.last_step() - course_.first_step(), scene_.run.samples,
                             sample_interval(kind_, course_.derived(), engine_->dt()));
+  schedule_.steps_per_frame = steps_per_frame;  // frames go on through all stages
   samples_ = 0;
 }
 
@@ -145,6 +157,7 @@ Archive Simulation<D>::checkpoint() const {
   schedule_.save(archive);
   series_.save(archive);
   row_.save(archive);
+  profile_.save(archive);
   archive.reals["run.last"].assign(last_.values.begin(), last_.values.end());
   course_.save(archive);
   archive.reals["run.energy_at_start"] = {scale_.energy_at_start};
@@ -164,6 +177,7 @@ void Simulation<D>::restore(const Archive& archive) {
   samples_ = schedule_.samples_until(engine_->steps() - course_.first_step());
   series_.restore(archive);
   row_.restore(archive);
+  profile_.restore(archive);
   const auto& last = real_column(archive, "run.last");
   std::copy_n(last.begin(), std::min<std::size_t>(last.size(), observable_count), last_.values.begin());
   scale_.energy_at_start = real_column(archive, "run.energy_at_start").at(0);
@@ -249,7 +263,7 @@ RunResult Simulation<D>::run(const RunControl& control) {
   if (!prepare(control, result)) return result;
   Pace pace(control, engine_->steps());
   try {
-    if (control.keep_last_good && pace.copy_due()) last_good_ = checkpoint();
+    if (pace.copy_due()) keep_last_good();
     result.ending = loop(control, pace);
   } catch (const RunError& error) {
     result.ending = Ending::failed;
@@ -281,17 +295,24 @@ Ending Simulation<D>::loop(const RunControl& control, Pace& pace) {
 /// To the end of the present stage, or to the step `last`.
 template <int D>
 Ending Simulation<D>::run_stage(const RunControl& control, Pace& pace, long last) {
-  const long end = std::min(course_.last_step(), last);
+  const long end = std::min(course_.last_step(), last), every = scene_.guard.every;
   pace.start_stage(scene_.stages.empty() ? control.stage : std::string_view(course_.name()), course_.first_step(),
                    course_.last_step());
+  const bool frames = control.frame && schedule_.steps_per_frame > 0;
+  if (frames && engine_->steps() == 0) write_frame(control);
   while (engine_->steps() < end) {
     const long now = engine_->steps(), sample_step = course_.first_step() + schedule_.step_of(samples_ + 1);
-    take_steps(std::min({sample_step - now, end - now, course_.next_turn() - now, pace.bite()}));
+    const long frame_step = frames ? schedule_.step_of_frame(schedule_.frame_after(now)) : end;
+    const long guard_step = (now / every + 1) * every;
+    take_steps(std::min({sample_step, frame_step, guard_step, end, course_.next_turn(), now + pace.bite()}) - now);
     pace.reached(engine_->steps());
     course_.turn(*engine_);
+    const bool saves = pace.checkpoint_due();
+    if (engine_->steps() == guard_step || engine_->steps() == end || saves) guard_->check(engine_->snapshot());
+    if (frames && engine_->steps() == frame_step) write_frame(control);
     if (engine_->steps() == sample_step)
       if (const std::optional<Ending> ending = take_sample(pace)) return *ending;
-    if (pace.checkpoint_due()) control.checkpoint(checkpoint());
+    if (saves) control.checkpoint(checkpoint());
     const bool going_on = engine_->steps() < course_.last_step() || !course_.is_last();
     if (control.stop && going_on && control.stop()) return Ending::interrupted;
   }
@@ -310,6 +331,21 @@ void Simulation<D>::finish_stage(Ending ending, const RunControl& control) {
   control.stage_end(number, course_.name(), checkpoint());
 }
 
+/// Keeps the present state, if it is sound.
+template <int D>
+void Simulation<D>::keep_last_good() {
+  guard_->check(engine_->snapshot());
+  last_good_ = checkpoint();
+}
+
+template <int D>
+void Simulation<D>::write_frame(const RunControl& control) {
+  Frame frame{engine_->steps(), {}};
+  for (long k = 0; schedule_.step_of_frame(k) <= engine_->steps(); ++k)
+    frame.times.push_back(static_cast<double>(schedule_.step_of_frame(k)) * engine_->dt());
+  control.frame(frame);
+}
+
 template <int D>
 void Simulation<D>::take_steps(long count) {
   const double wall = wall_seconds(), cpu = thread_seconds();
@@ -326,7 +362,12 @@ std::optional<Ending> Simulation<D>::take_sample(Pace& pace) {
   row_.add(last_);
   if (row_.samples() == schedule_.samples_per_row) {
     series_.rows.push_back(row_.finish(scale_));
-    if (pace.copy_due()) last_good_ = checkpoint();
+    const long first = course_.first_step(), length = course_.last_step() - first;
+    if (scale_.asked.has(MeasureKind::profile) && course_.is_last() &&
+        static_cast<double>(engine_->steps() - first) > scene_.run.average_from * static_cast<double>(length))
+      profile_.add(layer_profile(engine_->snapshot(), scene_.output.profile_layers,
+                                 static_cast<int>(scene_.output.profile_direction)));
+    if (pace.copy_due()) keep_last_good();
   }
   const double interval = schedule_.steps_per_sample * engine_->dt();
   return course_.look(last_, engine_->snapshot(), interval);
@@ -355,6 +396,7 @@ void Simulation<D>::report(RunResult& result) const {
   const double stage_start = static_cast<double>(course_.first_step()) * engine_->dt();
   result.averages = averages(result.series, scale_, scene_.run.average_from, stage_start);
   result.last = last_;
+  if (ended) result.measures = final_measures(scene_, derived_, start_, engine_->snapshot(), profile_);
   result.solver = engine_->solver_summary();
   result.cpu_seconds = cpu_seconds_;
   result.wall_seconds = wall_seconds_;

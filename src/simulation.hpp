@@ -24,6 +24,7 @@
 #include "common/scene/derive.hpp"
 #include "common/scene/sample.hpp"
 #include "common/scene/scene.hpp"
+#include "src/guard.hpp"
 #include "src/pace.hpp"
 #include "src/run_control.hpp"
 #include "src/run_result.hpp"
@@ -53,6 +54,10 @@ class Simulation {
 
   const Scene& scene() const { return scene_; }
   const Derived& derived() const { return derived_; }
+  /// What the dimensionless numbers of the measures are referred to.
+  const MeasureScale& scale() const { return scale_; }
+  /// Of each grain.
+  const std::vector<int>& material() const { return compression_ ? compression_->start_.material : start_.material; }
   bool compressing() const { return compression_ != nullptr; }
   /// The engine of the present stage.
   Engine<D>& engine() { return compression_ ? compression_->engine() : *engine_; }
@@ -80,6 +85,8 @@ class Simulation {
   Ending run_stage(const RunControl& control, Pace& pace, long last);
   void take_steps(long count);
   std::optional<Ending> take_sample(Pace& pace);
+  void keep_last_good();
+  void write_frame(const RunControl& control);
   void report(RunResult& result) const;
   void add_notes(RunResult& result) const;
 
@@ -93,11 +100,13 @@ class Simulation {
   Sample<D> start_;  ///< what the engine was built from
   std::unique_ptr<Engine<D>> engine_;
   StageCourse<D> course_;
+  std::optional<Guard<D>> guard_;
   MeasureScale scale_;
   Schedule schedule_;  ///< of the present stage
   long samples_ = 0;   ///< in the present stage
   RowAverager row_;
   TimeSeries series_;
+  ProfileAverage profile_;
   Measurement last_;
   double cpu_seconds_ = 0, wall_seconds_ = 0;
   std::optional<Archive> last_good_;

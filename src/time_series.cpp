@@ -15,7 +15,10 @@ void RowAverager::add(const Measurement& sample) {
   for (int k = 0; k < observable_count; ++k) {
     switch (observable_table[k].reduction) {
       case Reduction::mean:
+        // A measure may have no meaning in some states: the mean is that of the others.
+        if (std::isnan(sample.values[k])) break;
         sums_.values[k] += sample.values[k];
+        ++counts_[k];
         break;
       case Reduction::latest:
         sums_.values[k] = sample.values[k];
@@ -34,7 +37,8 @@ Measurement RowAverager::finish(const MeasureScale& scale) {
   require(samples_ > 0, "a row needs at least one sample");
   Measurement row = sums_;
   for (int k = 0; k < observable_count; ++k)
-    if (observable_table[k].reduction == Reduction::mean) row.values[k] /= samples_;
+    if (observable_table[k].reduction == Reduction::mean)
+      row.values[k] = counts_[k] > 0 ? row.values[k] / counts_[k] : std::numeric_limits<double>::quiet_NaN();
   complete(row, scale);
   *this = RowAverager{};
   return row;
@@ -43,6 +47,7 @@ Measurement RowAverager::finish(const MeasureScale& scale) {
 void RowAverager::save(Archive& archive) const {
   archive.reals["run.row_sums"].assign(sums_.values.begin(), sums_.values.end());
   archive.integers["run.row_samples"] = {samples_};
+  archive.integers["run.row_counts"].assign(counts_.begin(), counts_.end());
 }
 
 void RowAverager::restore(const Archive& archive) {
@@ -50,6 +55,10 @@ void RowAverager::restore(const Archive& archive) {
   if (sums.size() != observable_count) throw InputError("the checkpoint measures other observables than this version");
   std::copy(sums.begin(), sums.end(), sums_.values.begin());
   samples_ = static_cast<int>(integer_column(archive, "run.row_samples").at(0));
+  const auto& counts = integer_column(archive, "run.row_counts");
+  if (counts.size() != observable_count)
+    throw InputError("the checkpoint measures other observables than this version");
+  for (int k = 0; k < observable_count; ++k) counts_[k] = static_cast<int>(counts[k]);
 }
 
 std::vector<double> TimeSeries::column(Observable observable, double from) const {
@@ -120,9 +129,12 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
   require(average_from >= 0 && average_from < 1, "averages start at a fraction of the run below 1");
   result.from = start + average_from * (series.rows.back()[Observable::time] - start);
   for (int k = 0; k < observable_count; ++k) {
-    const std::vector<double> values = series.column(static_cast<Observable>(k), result.from);
+    std::vector<double> values = series.column(static_cast<Observable>(k), result.from);
     result.rows = static_cast<int>(values.size());
-    if (observable_table[k].reduction == Reduction::largest)
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    if (values.empty())
+      result.values[k] = {std::numeric_limits<double>::quiet_NaN(), 0};
+    else if (observable_table[k].reduction == Reduction::largest)
       result.values[k] = {*std::max_element(values.begin(), values.end()), 0};
     else
       result.values[k] = block_average(values);
@@ -131,17 +143,37 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
   return result;
 }
 
+bool shown(Observable observable, const TimeSeries& series) {
+  switch (info(observable).shown) {
+    case Shown::always:
+      return true;
+    case Shown::in_3d:
+      return series.dimension == 3;
+    case Shown::with_budget:
+      return series.budget;
+    case Shown::with_fabric:
+      return series.asked.has(MeasureKind::fabric);
+    case Shown::with_friction:
+      return series.asked.has(MeasureKind::friction);
+    case Shown::with_temperature:
+      return series.asked.has(MeasureKind::temperature);
+    case Shown::with_balance:
+      return series.asked.has(MeasureKind::balance);
+  }
+  return false;
+}
+
 CsvTable to_table(const TimeSeries& series) {
   CsvTable table;
   for (int k = 0; k < observable_count; ++k) {
-    if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
+    if (!shown(static_cast<Observable>(k), series)) continue;
     table.comments.push_back(fmt::format("{}: {}", observable_table[k].name, observable_table[k].meaning));
     table.columns.push_back({std::string(observable_table[k].name), ""});
   }
   for (const Measurement& row : series.rows) {
     std::vector<CsvCell>& cells = table.rows.emplace_back();
     for (int k = 0; k < observable_count; ++k) {
-      if (!shown(static_cast<Observable>(k), series.dimension, series.budget)) continue;
+      if (!shown(static_cast<Observable>(k), series)) continue;
       cells.emplace_back();
       if (!std::isnan(row.values[k])) cells.back() = row.values[k];
     }

@@ -28,11 +28,13 @@ class RowAverager {
  private:
   Measurement sums_;
   int samples_ = 0;
+  std::array<int, observable_count> counts_{};  ///< samples in which the observable had a value
 };
 
 struct TimeSeries {
   int dimension = 2;
   bool budget = false;  ///< whether energy was accounted for
+  MeasureSet asked;     ///< measures beyond those of every run
   std::vector<Measurement> rows;
 
   /// Values of one observable in the rows whose time is above `from`.
@@ -42,7 +44,8 @@ struct TimeSeries {
   void restore(const Archive& archive);
 };
 
-/// Averages over the rows whose time is above `from`, each with its standard error by blocking.
+/// Averages over the rows whose time is above `from`, each with its standard error by blocking. Rows in which an
+/// observable has no value don't count for it.
 struct Averages {
   double from = 0;
   int rows = 0;
@@ -60,10 +63,7 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
 Estimate ratio_of_means(const std::vector<double>& numerator, const std::vector<double>& denominator);
 
 /// Is the observable a column of tables of such a run?
-inline bool shown(Observable observable, int dimension, bool budget) {
-  const Shown where = info(observable).shown;
-  return where == Shown::always || (where == Shown::in_3d && dimension == 3) || (where == Shown::with_budget && budget);
-}
+bool shown(Observable observable, const TimeSeries& series);
 
 /// The series as a table: one column per observable, an empty cell where one has no meaning.
 CsvTable to_table(const TimeSeries& series);

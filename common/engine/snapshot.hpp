@@ -27,12 +27,13 @@ struct ContactColumns {
   std::vector<Vec<D>> force;           ///< F on j (cd: reaction / dt)
   std::vector<Spin<D>> torque;         ///< rolling and pivoting torque on j, in layouts with rolling resistance
   std::vector<std::uint8_t> touching;  ///< 0 for a pair that attracts across a gap; empty: all touch
+  std::vector<double> mobilised;       ///< |F_T| / its bound, at most 1; NaN without friction, empty without any
 
   std::size_t size() const { return i.size(); }
   bool touches(std::size_t c) const { return touching.empty() || touching[c] != 0; }
   void clear() {
     i.clear(), j.clear(), image.clear(), normal.clear(), branch.clear(), gap.clear(), force.clear();
-    torque.clear(), touching.clear();
+    torque.clear(), touching.clear(), mobilised.clear();
   }
 };
 

@@ -17,9 +17,9 @@ template <int D>
 Sample<D> checkpoint_sample(const Archive& archive) {
   const std::vector<double>& box = real_column(archive, "cell.box");
   if (box.size() != D * D) throw InputError("initial.file: the checkpoint is of another dimension than the scene");
-  const auto& wall = integer_column(archive, "sample.wall");
-  if (std::any_of(wall.begin(), wall.end(), [](std::int64_t w) { return w >= 0; }))
-    throw InputError("initial.file: the checkpoint holds walls, which can't start another scene");
+  const auto& body = integer_column(archive, "sample.body");
+  if (std::any_of(body.begin(), body.end(), [](std::int64_t b) { return b >= 0; }))
+    throw InputError("initial.file: the checkpoint holds rigid bodies, which can't start another scene");
   Sample<D> sample;
   sample.resize(static_cast<int>(real_column(archive, "grains.radius").size()));
   sample.cell.box = Eigen::Map<const Mat<D>>(box.data());

@@ -11,7 +11,7 @@ namespace galet {
 Archive initial_checkpoint(const Scene& scene);
 
 /// Its grains where they are now, with their velocities, in their cell at rest (strain 0, rate 0). No planes. Throws
-/// InputError when it is of another dimension or holds walls.
+/// InputError when it is of another dimension or holds rigid bodies.
 template <int D>
 Sample<D> checkpoint_sample(const Archive& archive);
 

@@ -110,10 +110,12 @@ void FieldReader::operator()(std::vector<std::string>* target) {
   if (items == nullptr) return refuse(node_);
   std::vector<std::string> values;
   for (const TreeNode& item : *items) {
-    if (const std::string* text = item.text())
+    const std::string* text = item.text();
+    const std::vector<std::string>& known = field_.choices;
+    if (text != nullptr && (known.empty() || std::find(known.begin(), known.end(), *text) != known.end()))
       values.push_back(*text);
     else
-      refuse(item);
+      refuse(item, text == nullptr || known.empty() ? "" : suggestion(*text, known));
   }
   if (mistakes_.empty()) *target = std::move(values);
 }

@@ -76,7 +76,9 @@ struct ExpectedOf {
   std::string operator()(std::optional<double>*) const { return (*this)(static_cast<double*>(nullptr)); }
   std::string operator()(std::string*) const { return "a string"; }
   std::string operator()(std::vector<bool>*) const { return "an array of true or false"; }
-  std::string operator()(std::vector<std::string>*) const { return "an array of strings"; }
+  std::string operator()(std::vector<std::string>*) const {
+    return field.choices.empty() ? "an array of strings" : "an array of " + alternatives(quoted(field.choices));
+  }
   std::string operator()(std::vector<double>*) const {
     const std::string array = "an array of " + with_range(plural(field.quantity), field.range);
     return field.number_too ? with_article(field.quantity) + " or " + array : array;
@@ -135,16 +137,19 @@ Scene scene_with_entries() {
 }  // namespace
 
 std::string expected(const SceneField& field) {
-  if (!field.choices.empty()) return alternatives(quoted(field.choices));
   Scene scene = scene_with_entries();
-  return std::visit(ExpectedOf{field}, field.target(scene));
+  const FieldTarget target = field.target(scene);
+  if (!field.choices.empty() && !std::holds_alternative<std::vector<std::string>*>(target))
+    return alternatives(quoted(field.choices));
+  return std::visit(ExpectedOf{field}, target);
 }
 
 std::string expected_item(const SceneField& field) {
   Scene scene = scene_with_entries();
   const FieldTarget target = field.target(scene);
   if (std::holds_alternative<std::vector<bool>*>(target)) return "true or false";
-  if (std::holds_alternative<std::vector<std::string>*>(target)) return "a string";
+  if (std::holds_alternative<std::vector<std::string>*>(target))
+    return field.choices.empty() ? "a string" : alternatives(quoted(field.choices));
   return with_range(with_article(field.quantity), field.range);
 }
 

@@ -30,9 +30,10 @@ struct Interval {
 std::string to_string(const Interval& interval);
 
 /// The member of a Scene that a field is stored in. Its type is the field's type.
-using FieldTarget = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*,
-                                 std::vector<double>*, std::vector<bool>*, std::vector<std::string>*, EngineKind*,
-                                 SizeKind*, InitialKind*, LoadingKind*, DampingConvention*, NormalLaw*, CohesionLaw*>;
+using FieldTarget =
+    std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*,
+                 std::vector<bool>*, std::vector<std::string>*, EngineKind*, SizeKind*, InitialKind*, LoadingKind*,
+                 Axis*, DampingConvention*, NormalLaw*, CohesionLaw*>;
 
 struct SceneField {
   std::string path;                         ///< "grains.count"; without index in lists: "drive.rate"

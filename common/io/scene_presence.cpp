@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/measure_names.hpp"
+
 namespace galet {
 
 std::vector<Finding> check_presence(const Scene& scene, const std::function<bool(const std::string&)>& written) {
@@ -27,6 +29,10 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
   if (scene.grains.diameter.kind == SizeKind::discrete)
     idle(false, "grains.diameter.mean", "has no effect with distribution = \"discrete\"");
   if (drawn) needed_in_si("grains.diameter");
+  if (!MeasureSet(scene.output.measures).has(MeasureKind::profile))
+    for (const char* path : {"output.profile_layers", "output.profile_direction"})
+      if (written(path))
+        findings.push_back({path, fmt::format("{} needs \"profile\" in output.measures", path), {"output.measures"}});
   for (std::size_t k = 0; k < scene.grains.listed.size(); ++k) needed_in_si(fmt::format("grain[{}].diameter", k));
   if (written("grains.diameter.distribution") && scene.grains.diameter.kind != SizeKind::discrete && drawn)
     needed_in_si("grains.diameter.mean");

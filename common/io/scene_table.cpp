@@ -314,9 +314,10 @@ void add_compare(Rows& rows) {
 const std::vector<SceneField>& scene_fields() {
   static const Rows table = [] {
     Rows rows;
-    for (const auto add : {add_top, add_grains, add_diameter, add_listed_grains, add_groups, add_material,
-                           add_other_materials, add_pairs, add_initial, add_cell, add_planes, add_bodies, add_loading,
-                           add_drives, add_stages, add_engines, add_run, add_compare})
+    for (const auto add :
+         {add_top,    add_grains,  add_diameter, add_listed_grains, add_groups, add_material, add_other_materials,
+          add_pairs,  add_initial, add_cell,     add_planes,        add_bodies, add_loading,  add_drives,
+          add_stages, add_engines, add_run,      add_output,        add_guard,  add_compare})
       add(rows);
     return rows;
   }();
@@ -384,6 +385,10 @@ const std::vector<SceneSection>& scene_sections() {
       {.name = "cd", .doc = "Numerical parameters of the rigid engine; a scene for md may have them too."},
       {.name = "run",
        .doc = "How long, and what is averaged. One of `duration` and `strain` is needed, unless there are stages."},
+      {.name = "output",
+       .doc = "What a run measures and writes beyond the series of every run; nothing else is computed."},
+      {.name = "guard",
+       .doc = "When a run is stopped because its state is no longer sound. The latest sound state is kept."},
       {.name = "compare", .doc = "What `galet compare` sweeps."}};
   return sections;
 }

@@ -28,4 +28,8 @@ void add_drives(Rows& rows);
 void add_stages(Rows& rows);
 void add_run(Rows& rows);
 
+// scene_table_output.cpp
+void add_output(Rows& rows);
+void add_guard(Rows& rows);
+
 }  // namespace galet::scene_table

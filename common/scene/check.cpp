@@ -196,7 +196,7 @@ void check_initial(Report& report) {
               {"initial.kind"});
   report.rule(!checkpoint || scene.bodies.empty(), "initial.kind",
               "initial.kind = \"checkpoint\" and [[body]] entries exclude each other: bodies are made of listed grains",
-              {"wall"});
+              {"body"});
   const bool readable = initial.file.ends_with(".csv") || initial.file.ends_with(".data");
   report.rule(!packing || initial.file.empty() || readable, "initial.file",
               fmt::format("initial.file: expected a name that ends in .csv (a table) or .data (LAMMPS), got {}",
@@ -303,6 +303,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_planes(report);
   check_bodies(report);
   check_loadings(report);
+  check_output(report);
   check_compare(report);
   return report.findings;
 }

@@ -58,4 +58,7 @@ bool imposes_flow(const Scene& scene);  ///< whether some loading imposes a rate
 // check_bodies.cpp
 void check_bodies(Report& report);
 
+// check_output.cpp
+void check_output(Report& report);
+
 }  // namespace galet::scene_check

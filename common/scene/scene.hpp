@@ -242,6 +242,25 @@ struct StageSpec : EndSpec {
   std::optional<double> friction = {};  ///< of [material] in this stage
 };
 
+enum class Axis { x, y, z };
+
+/// What a run measures and writes beyond the series of every run. Nothing of it changes the state that is reached.
+struct OutputSpec {
+  std::vector<std::string> measures;      ///< names of measure_names.hpp
+  int profile_layers = 20;                ///< of the measure "profile"
+  Axis profile_direction = Axis::y;       ///< the cell vector across which it goes
+  int frames = 0;                         ///< states written over the run, besides the first; 0: none
+  std::vector<std::string> formats = {};  ///< of frames: "paraview", "xyz", "lammps"; empty: paraview
+};
+
+/// When a run is stopped because its state is no longer sound (src/guard.hpp).
+struct GuardSpec {
+  int every = 500;       ///< steps between checks
+  double overlap = 0.5;  ///< largest overlap, in units of the smaller radius of the two
+  double speed = 1000;   ///< largest speed, in units of the scene's own speed
+  double energy = 1e4;   ///< largest kinetic energy per grain, in units of m (scene's own speed)^2 / 2
+};
+
 /// What `galet compare` sweeps. Empty lists take the scene's own single value.
 struct CompareSpec {
   std::vector<double> inertial_numbers;
@@ -271,6 +290,8 @@ struct Scene {
   CdSpec cd;
   RunSpec run;
   std::vector<StageSpec> stages;  ///< in their order; none: the run is one stage, of `loading` and `run`
+  OutputSpec output;
+  GuardSpec guard;
   CompareSpec compare;
 };
 

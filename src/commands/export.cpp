@@ -1,4 +1,4 @@
-// galet export: the grains of a checkpoint as a packing file for other programs, or for initial.kind = "packing".
+// galet export: the grains of a checkpoint for other programs, or as a packing for initial.kind = "packing".
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +10,7 @@
 #include "common/io/packing_csv.hpp"
 #include "src/commands/commands.hpp"
 #include "src/dimension.hpp"
+#include "src/frame_files.hpp"
 #include "src/restart.hpp"
 #include "src/simulation.hpp"
 
@@ -22,6 +23,9 @@ struct ExportArguments {
   std::string format = "csv";
   std::string out;
 };
+
+/// Formats that show a state, contacts included, and start no other run.
+bool is_state(const std::string& format) { return format == "paraview" || format == "xyz" || format == "dump"; }
 
 template <int D>
 void write_sample(const ExportArguments& arguments, const std::string& path, const Sample<D>& sample) {
@@ -40,6 +44,13 @@ int export_sample(const ExportArguments& arguments) {
                                : arguments.out;
   with_dimension(scene.dimension, [&](auto dimension) {
     Simulation<dimension> simulation = Simulation<dimension>::resume(scene, archive);
+    if (is_state(arguments.format)) {
+      const std::string stem = std::filesystem::path(path).replace_extension().string();
+      const auto files = write_state<dimension>(stem, arguments.format, simulation.engine().snapshot(),
+                                                simulation.engine().steps(), simulation.material());
+      for (const std::string& file : files) fmt::print("wrote {}\n", file);
+      return;
+    }
     const auto sample = simulation.present_sample();
     write_sample<dimension>(arguments, path, sample);
     fmt::print("{}: {} grains at time {:g}, velocities are fluctuations about the cell's flow\n", path, sample.count(),
@@ -52,13 +63,19 @@ int export_sample(const ExportArguments& arguments) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("export", "Write the grains of a checkpoint as a packing file");
+  CLI::App* command = app.add_subcommand("export", "Write the grains of a checkpoint for other programs or runs");
   auto arguments = std::make_shared<ExportArguments>();
   command->add_option("FILE", arguments->checkpoint, "checkpoint of a run (.h5)")->required();
-  command->add_option("--format", arguments->format, "csv (read again by initial.kind = \"packing\") or lammps")
-      ->check(CLI::IsMember({"csv", "lammps"}))
+  command
+      ->add_option(
+          "--format", arguments->format,
+          "csv or lammps, a data file (both read again by initial.kind = \"packing\"); to look at: paraview, xyz "
+          "(extended XYZ) or dump (LAMMPS)")
+      ->check(CLI::IsMember({"csv", "lammps", "paraview", "xyz", "dump"}))
       ->capture_default_str();
-  command->add_option("--out", arguments->out, "file to write (default: beside the checkpoint)");
+  command->add_option(
+      "--out", arguments->out,
+      "file to write (default: beside the checkpoint); paraview: its name without extension begins three");
   command->callback([&action, arguments] { action = [arguments] { return export_sample(*arguments); }; });
 }
 

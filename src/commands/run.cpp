@@ -16,6 +16,7 @@
 #include "src/commands/progress_line.hpp"
 #include "src/dimension.hpp"
 #include "src/engines.hpp"
+#include "src/frame_files.hpp"
 #include "src/restart.hpp"
 #include "src/run_files.hpp"
 #include "src/text_table.hpp"
@@ -147,10 +148,17 @@ int run_job(const RunArguments& arguments, const Job& job) {
 
   catch_interrupts();
   ProgressLine line;
-  const RunResult result = simulation.run(control_of(arguments, job, checkpoint_path, line));
+  RunControl control = control_of(arguments, job, checkpoint_path, line);
+  const FrameFiles frames(path_in(job.directory, engine), simulation.scene().output.formats, simulation.material());
+  control.frame = [&](const Frame& frame) { frames.write(frame, simulation.engine().snapshot()); };
+  const RunResult result = simulation.run(control);
   line.clear();
 
   std::vector<std::string> files = write_run(result, simulation, job.title, job.directory);
+  if (simulation.scene().output.frames > 0) {
+    const std::vector<std::string> opened = frames.opened();
+    files.insert(files.end(), opened.begin(), opened.end());
+  }
   if (result.ending != Ending::failed) {
     write_checkpoint(checkpoint_path, simulation.checkpoint());
     files.push_back(checkpoint_path);
@@ -185,8 +193,9 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--threads", arguments->threads, "threads of the run; results don't depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--resume", arguments->resume,
-                      "go on from a checkpoint; SCENE may be left out, and --set may only change run.*");
+  command->add_option(
+      "--resume", arguments->resume,
+      "go on from a checkpoint; SCENE may be left out, and --set may only change run.*, output.* and guard.*");
   command->add_option("--checkpoint-every", arguments->checkpoint_every, "seconds between checkpoints")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -12,52 +12,17 @@
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
 #include "common/measure/stress.hpp"
-#include "common/measure/velocity_profile.hpp"
 #include "common/scene/pair_law.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace galet {
 namespace {
 
 using test::snapshot_of;
 constexpr double pi = std::numbers::pi;
-constexpr double force_value = 2.7, diameter = 1.3;
-
-/// Grains of one diameter on the sites cell * (k + basis) of an n x n (x n) piece of a Bravais lattice with basis.
-template <int D>
-Sample<D> crystal(const Mat<D>& unit, const std::vector<Vec<D>>& basis, int n) {
-  Sample<D> sample;
-  sample.cell.box = n * unit;
-  sample.cell.periodic.fill(true);
-  int cells = 1;
-  for (int a = 0; a < D; ++a) cells *= n;
-  sample.resize(cells * static_cast<int>(basis.size()));
-  sample.radius.assign(sample.count(), diameter / 2);
-  int grain = 0;
-  for (int code = 0; code < cells; ++code) {
-    Vec<D> k;
-    for (int a = 0, rest = code; a < D; ++a, rest /= n) k[a] = rest % n;
-    for (const Vec<D>& site : basis) sample.position[grain++] = unit * (k + site);
-  }
-  return sample;
-}
-
-template <int D>
-ContactColumns<D> touching(const Sample<D>& sample) {
-  return test::brute_force_contacts<D>(sample, 1e-9, [](int, int, double) { return force_value; });
-}
-
-Sample<2> triangular(int n) {
-  Mat<2> unit;
-  unit << 1, 0.5, 0, std::sqrt(3.0) / 2;
-  return crystal<2>(diameter * unit, {Vec<2>::Zero()}, n);
-}
-Sample<2> square(int n) { return crystal<2>(diameter * Mat<2>::Identity(), {Vec<2>::Zero()}, n); }
-Sample<3> cubic(int n) { return crystal<3>(diameter * Mat<3>::Identity(), {Vec<3>::Zero()}, n); }
-Sample<3> face_centred(int n) {
-  return crystal<3>(std::sqrt(2.0) * diameter * Mat<3>::Identity(),
-                    {Vec<3>::Zero(), Vec<3>(0.5, 0.5, 0), Vec<3>(0.5, 0, 0.5), Vec<3>(0, 0.5, 0.5)}, n);
-}
+using test::cubic, test::face_centred, test::square, test::touching, test::triangular;
+constexpr double force_value = test::lattice_force, diameter = test::lattice_diameter;
 
 /// References L1 and L3: P = z Phi <F> / (pi d^(D-1)), isotropic, and the lattice's own z and Phi.
 template <int D>
@@ -226,87 +191,6 @@ TEST(Measure, ControlNumbersHaveNoUnits) {
   law.normal_law = NormalLaw::hertz;
   law.stiffness = 70e9 / (2 * (1 - 0.09));
   EXPECT_NEAR(stiffness_level(law, 3, 1e3, 1e-3), 181000, 500);
-}
-
-TEST(VelocityProfile, AffineFlowOfALattice) {
-  Sample<2> sample = square(8);
-  for (Vec<2>& x : sample.position) x += Vec<2>(0.1, diameter / 2);  // one row in the middle of each of 8 layers
-  sample.cell.rate(0, 1) = 0.6;
-  const ContactColumns<2> none;
-  const std::vector<ProfileRow> rows = velocity_profile(snapshot_of(sample, none), 8);
-  ASSERT_EQ(rows.size(), 8u);
-  for (int k = 0; k < 8; ++k) {
-    EXPECT_NEAR(rows[k].y, (k + 0.5) * diameter, 1e-13);
-    EXPECT_NEAR(rows[k].velocity, 0.6 * rows[k].y, 1e-13);
-    EXPECT_EQ(rows[k].grains, 8);
-    EXPECT_EQ(rows[k].fluctuation, 0);
-    EXPECT_NEAR(rows[k].solid_fraction, pi / 4, 1e-13);
-  }
-}
-
-// Moving grains by whole cell vectors, or writing the cell in an equivalent tilted form, changes nothing.
-TEST(VelocityProfile, DoesNotDependOnTheImage) {
-  Sample<3> sample;
-  sample.resize(60);
-  sample.cell.box << 4, 1, 0, 0, 5, 0, 0, 0, 3;
-  sample.cell.rate(0, 1) = 0.3;
-  sample.cell.periodic.fill(true);
-  for (int i = 0; i < sample.count(); ++i) {
-    RandomStream random(5, i);
-    sample.position[i] = sample.cell.box * Vec<3>(random.uniform(), random.uniform(), random.uniform());
-    sample.velocity[i] = Vec<3>(random.normal(), random.normal(), random.normal());
-    sample.radius[i] = random.uniform(0.2, 0.9);
-  }
-  Sample<3> moved = sample;
-  moved.cell.box.col(1) -= 2 * moved.cell.box.col(0);
-  for (int i = 0; i < moved.count(); ++i) moved.position[i] += sample.cell.box * Vec<3>(i % 3 - 1, i % 5 - 2, -(i % 2));
-  const ContactColumns<3> none;
-  const std::vector<ProfileRow> a = velocity_profile(snapshot_of(sample, none), 7);
-  const std::vector<ProfileRow> b = velocity_profile(snapshot_of(moved, none), 7);
-  double phi = 0;
-  for (int k = 0; k < 7; ++k) {
-    EXPECT_EQ(a[k].grains, b[k].grains);
-    EXPECT_NEAR(a[k].velocity, b[k].velocity, 1e-13);
-    EXPECT_NEAR(a[k].fluctuation, b[k].fluctuation, 1e-13);
-    EXPECT_NEAR(a[k].solid_fraction, b[k].solid_fraction, 1e-13);
-    phi += a[k].solid_fraction / 7;
-  }
-  EXPECT_NEAR(phi, solid_fraction(snapshot_of(sample, none)), 1e-13);
-}
-
-// A grain on the border between two layers is half in each; a sphere cut at R/2 leaves a cap of 5/32 of its volume.
-TEST(VelocityProfile, CutsGrainsAtTheFacesOfALayer) {
-  Sample<2> disk;
-  disk.resize(1);
-  disk.cell.box = 4 * Mat<2>::Identity();
-  disk.cell.periodic = {true, true};
-  const ContactColumns<2> none2;
-  const std::vector<ProfileRow> halves = velocity_profile(snapshot_of(disk, none2), 4);  // the disk sits at y = 0
-  EXPECT_NEAR(halves[0].solid_fraction, pi / 8 / 4, 1e-14);
-  EXPECT_NEAR(halves[3].solid_fraction, pi / 8 / 4, 1e-14);
-  EXPECT_EQ(halves[1].solid_fraction, 0);
-  EXPECT_EQ(halves[0].grains + halves[3].grains, 1);
-
-  Sample<3> ball;
-  ball.resize(1);
-  ball.radius[0] = 1;
-  ball.position[0] = Vec<3>(1, 2.5, 1);  // the layer's face at y = 3 cuts it at R/2
-  ball.cell.box = 6 * Mat<3>::Identity();
-  const ContactColumns<3> none3;
-  const std::vector<ProfileRow> cut = velocity_profile(snapshot_of(ball, none3), 2);
-  EXPECT_NEAR(cut[1].solid_fraction, 5.0 / 32 * (4 * pi / 3) / 108, 1e-14);
-  EXPECT_NEAR(cut[0].solid_fraction, 27.0 / 32 * (4 * pi / 3) / 108, 1e-14);
-}
-
-TEST(VelocityProfile, FluctuationIsPerComponentAboutTheMean) {
-  Sample<2> sample = square(4);
-  for (Vec<2>& x : sample.position) x.y() += 0.1;
-  for (int i = 0; i < sample.count(); ++i) sample.velocity[i] = Vec<2>(5 + (i % 2 == 0 ? 0.3 : -0.3), 0);
-  const ContactColumns<2> none;
-  for (const ProfileRow& row : velocity_profile(snapshot_of(sample, none), 4)) {
-    EXPECT_NEAR(row.velocity, 5, 1e-14);
-    EXPECT_NEAR(row.fluctuation, 0.3 / std::sqrt(2), 1e-14);
-  }
 }
 
 TEST(BlockAverage, FewValues) {

@@ -423,6 +423,42 @@ loading.shear_rate = 1
 )",
        {"5:19: run.equilibrium needs a loading that imposes no rate: with one nothing comes to rest",
         "5:19: run.equilibrium needs loading.pressure: stresses and energies are compared with it"}},
+      {"unknown_measure",
+       sound + R"(output.measures = ["fabrc", 3]
+)",
+       {R"(5:20: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "profile", "voronoi", "indeterminacy" or "moduli", got "fabrc"; did you mean "fabric"?)",
+        R"(5:29: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "profile", "voronoi", "indeterminacy" or "moduli", got 3)"}},
+      {"measures_no_array",
+       sound + R"(output.formats = "xyz"
+)",
+       {R"(5:18: output.formats: expected an array of "paraview", "xyz" or "lammps", got "xyz")"}},
+      {"measures_repeated",
+       sound + R"(output.measures = ["gaps", "gaps"]
+)",
+       {R"(5:19: output.measures: "gaps" is there twice)"}},
+      {"measures_without_what_they_need",
+       R"(grains.count = 10
+material.restitution = 0.5
+engine = "cd"
+cell.periodic = [true, false]
+run.duration = 1
+output.measures = ["friction", "voronoi", "moduli"]
+)",
+       {R"(6:19: output.measures: "friction" needs a material with friction)",
+        R"(6:19: output.measures: "voronoi" needs a cell that is periodic in each direction, or in none)",
+        R"(6:19: output.measures: "moduli" needs a cell periodic in each direction)",
+        R"(6:19: output.measures: "moduli" needs the stiffness of [material], with cd too)"}},
+      {"profile_not_asked_for",
+       sound + R"(output.profile_layers = 5
+output.profile_direction = "z"
+)",
+       {R"(5:25: output.profile_layers needs "profile" in output.measures)",
+        R"(6:28: output.profile_direction needs "profile" in output.measures)",
+        R"(6:28: output.profile_direction: "z" needs dimension = 3)"}},
+      {"formats_without_frames",
+       sound + R"(output.formats = ["xyz"]
+)",
+       {"5:18: output.formats needs output.frames"}},
       {"sweeps_without_their_parameter",
        sound + R"(compare.inertial_numbers = [0.1]
 compare.stiffness_levels = [1e3]

@@ -1,0 +1,163 @@
+#include "common/io/vtk.hpp"
+
+#include <cstdint>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "common/geometry/wrap.hpp"
+
+namespace galet {
+
+namespace {
+
+static_assert(sizeof(double) == 8);
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::uint32_t three = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
+    for (std::size_t b = 0; b < 3; ++b)
+      three = three << 8 | (b < count ? static_cast<unsigned char>(bytes[k + b]) : 0u);
+    for (std::size_t digit = 0; digit < 4; ++digit)
+      text += digit <= count ? digits[three >> (18 - 6 * digit) & 63] : '=';
+  }
+  return text;
+}
+
+/// A DataArray element; each value of Number in the order of the file.
+template <class Number>
+std::string data_array(const std::string& name, const std::vector<Number>& values, int components = 1) {
+  const char* type = std::is_same_v<Number, double>         ? "Float64"
+                     : std::is_same_v<Number, std::int64_t> ? "Int64"
+                                                            : "UInt8";
+  const std::uint64_t size = values.size() * sizeof(Number);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+                     type, name, components, base64(bytes));
+}
+
+template <int D>
+void append(std::vector<double>& flat, const Vec<D>& value) {
+  for (int a = 0; a < 3; ++a) flat.push_back(a < D ? value[a] : 0.0);
+}
+void append(std::vector<double>& flat, double spin) { flat.insert(flat.end(), {0, 0, spin}); }
+
+/// Cells of `size` consecutive points each.
+std::string cells(const char* element, std::size_t count, int size) {
+  std::vector<std::int64_t> connectivity(count * size), offsets(count);
+  for (std::size_t k = 0; k < connectivity.size(); ++k) connectivity[k] = static_cast<std::int64_t>(k);
+  for (std::size_t k = 0; k < count; ++k) offsets[k] = static_cast<std::int64_t>(k + 1) * size;
+  return fmt::format("<{0}>\n{1}{2}</{0}>\n", element, data_array("connectivity", connectivity),
+                     data_array("offsets", offsets));
+}
+
+/// A whole file. `points`: three numbers each; one kind of cells.
+std::string poly_data(const std::vector<double>& points, const std::string& point_data, const std::string& cell_data,
+                      const char* element, std::size_t count, int size) {
+  const bool lines = std::string_view(element) == "Lines";
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"0\">\n<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n{}"
+      "</Piece>\n</PolyData>\n</VTKFile>\n",
+      points.size() / 3, lines ? 0 : count, lines ? count : 0, point_data, cell_data, data_array("Points", points, 3),
+      cells(element, count, size));
+}
+
+}  // namespace
+
+template <int D>
+std::string vtp_grains(const Snapshot<D>& snapshot, const std::vector<int>& material) {
+  const Cell<D>& cell = *snapshot.cell;
+  const Mat<D> inverse = cell.box.inverse();
+  std::vector<double> points, velocity, fluctuation, spin;
+  std::vector<std::int64_t> id, kind, contacts(snapshot.grains(), 0);
+  for (std::size_t c = 0; c < snapshot.contacts->size(); ++c) {
+    if (!snapshot.contacts->touches(c)) continue;
+    ++contacts[snapshot.contacts->i[c]];
+    if (const int j = snapshot.contacts->j[c]; j < snapshot.grains()) ++contacts[j];
+  }
+  for (int i = 0; i < snapshot.grains(); ++i) {
+    const Vec<D> x = wrapped_position<D>(cell, inverse, snapshot.position[i]);
+    append<D>(points, x);
+    append<D>(velocity, snapshot.velocity[i] + cell.rate * x);
+    append<D>(fluctuation, snapshot.velocity[i]);
+    append(spin, snapshot.spin.empty() ? zero_spin<D>() : snapshot.spin[i]);
+    id.push_back(i);
+    kind.push_back(material.empty() ? 0 : material[i]);
+  }
+  const std::vector<double> radius(snapshot.radius.begin(), snapshot.radius.end());
+  const std::vector<double> mass(snapshot.mass.begin(), snapshot.mass.end());
+  const std::string data = data_array("id", id) + data_array("radius", radius) + data_array("mass", mass) +
+                           data_array("material", kind) + data_array("velocity", velocity, 3) +
+                           data_array("fluctuation", fluctuation, 3) + data_array("angular_velocity", spin, 3) +
+                           data_array("contacts", contacts);
+  return poly_data(points, data, "", "Verts", id.size(), 1);
+}
+
+template <int D>
+std::string vtp_contacts(const Snapshot<D>& snapshot) {
+  const ContactColumns<D>& contacts = *snapshot.contacts;
+  const Mat<D> inverse = snapshot.cell->box.inverse();
+  std::vector<double> points, force, normal, tangential;
+  std::vector<std::int64_t> first, second;
+  std::vector<std::uint8_t> touching;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec<D> start = wrapped_position<D>(*snapshot.cell, inverse, snapshot.position[contacts.i[c]]);
+    append<D>(points, start);
+    append<D>(points, start + contacts.branch[c]);
+    append<D>(force, contacts.force[c]);
+    normal.push_back(contacts.force[c].dot(contacts.normal[c]));
+    tangential.push_back((contacts.force[c] - normal.back() * contacts.normal[c]).norm());
+    first.push_back(contacts.i[c]), second.push_back(contacts.j[c]);
+    touching.push_back(contacts.touches(c) ? 1 : 0);
+  }
+  std::string data = data_array("force", force, 3) + data_array("normal_force", normal) +
+                     data_array("tangential_force", tangential) + data_array("gap", contacts.gap) +
+                     data_array("i", first) + data_array("j", second) + data_array("touching", touching);
+  if (!contacts.mobilised.empty()) data += data_array("mobilised", contacts.mobilised);
+  return poly_data(points, "", data, "Lines", contacts.size(), 2);
+}
+
+template <int D>
+std::string vtp_cell(const Snapshot<D>& snapshot) {
+  const Mat<D>& box = snapshot.cell->box;
+  std::vector<double> points;
+  std::size_t edges = 0;
+  for (int a = 0; a < D; ++a)
+    for (int corner = 0; corner < 1 << D; ++corner) {
+      if ((corner >> a & 1) != 0) continue;  // each edge once, from its end at fraction 0
+      Vec<D> from = Vec<D>::Zero();
+      for (int b = 0; b < D; ++b)
+        if ((corner >> b & 1) != 0) from += box.col(b);
+      append<D>(points, from);
+      append<D>(points, from + box.col(a));
+      ++edges;
+    }
+  return poly_data(points, "", "", "Lines", edges, 2);
+}
+
+std::string pvd(const std::vector<std::pair<double, std::string>>& files) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<Collection>\n";
+  for (const auto& [time, file] : files)
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file);
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+template std::string vtp_grains<2>(const Snapshot<2>&, const std::vector<int>&);
+template std::string vtp_grains<3>(const Snapshot<3>&, const std::vector<int>&);
+template std::string vtp_contacts<2>(const Snapshot<2>&);
+template std::string vtp_contacts<3>(const Snapshot<3>&);
+template std::string vtp_cell<2>(const Snapshot<2>&);
+template std::string vtp_cell<3>(const Snapshot<3>&);
+
+}  // namespace galet

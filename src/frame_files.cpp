@@ -1,0 +1,91 @@
+#include "src/frame_files.hpp"
+
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "common/core/error.hpp"
+#include "common/io/files.hpp"
+#include "common/io/particle_text.hpp"
+#include "common/io/vtk.hpp"
+
+namespace galet {
+
+namespace {
+
+constexpr std::array<const char*, 3> parts = {"grains", "contacts", "cell"};
+
+std::string numbered(const std::string& stem, long index, const char* extension) {
+  return fmt::format("{}_{:06}{}", stem, index, extension);
+}
+
+template <int D>
+std::array<std::string, 3> paraview_texts(const Snapshot<D>& snapshot, const std::vector<int>& material) {
+  return {vtp_grains(snapshot, material), vtp_contacts(snapshot), vtp_cell(snapshot)};
+}
+
+}  // namespace
+
+FrameFiles::FrameFiles(std::string stem, std::vector<std::string> formats, std::vector<int> material)
+    : stem_(std::move(stem)), formats_(std::move(formats)), material_(std::move(material)) {
+  if (formats_.empty()) formats_ = {"paraview"};
+}
+
+template <int D>
+void FrameFiles::write(const Frame& frame, const Snapshot<D>& snapshot) const {
+  const long index = static_cast<long>(frame.times.size()) - 1;
+  for (const std::string& format : formats_) {
+    if (format == "xyz") write_file(numbered(stem_, index, ".xyz"), extended_xyz(snapshot, material_));
+    if (format == "lammps") write_file(numbered(stem_, index, ".dump"), lammps_dump(snapshot, frame.step, material_));
+    if (format != "paraview") continue;
+    const std::array<std::string, 3> texts = paraview_texts(snapshot, material_);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      const std::string stem = stem_ + '_' + parts[part];
+      write_file(numbered(stem, index, ".vtp"), texts[part]);
+      std::vector<std::pair<double, std::string>> files;
+      for (std::size_t k = 0; k < frame.times.size(); ++k)
+        files.emplace_back(frame.times[k],
+                           numbered(std::filesystem::path(stem).filename().string(), static_cast<long>(k), ".vtp"));
+      write_file(stem + ".pvd", pvd(files));
+    }
+  }
+}
+
+std::vector<std::string> FrameFiles::opened() const {
+  std::vector<std::string> names;
+  for (const std::string& format : formats_) {
+    if (format == "paraview")
+      for (const char* part : parts) names.push_back(stem_ + '_' + part + ".pvd");
+    if (format == "xyz") names.push_back(stem_ + "_*.xyz");
+    if (format == "lammps") names.push_back(stem_ + "_*.dump");
+  }
+  return names;
+}
+
+template <int D>
+std::vector<std::string> write_state(const std::string& stem, const std::string& format, const Snapshot<D>& snapshot,
+                                     long step, const std::vector<int>& material) {
+  std::vector<std::string> paths;
+  const auto put = [&](const std::string& path, const std::string& text) {
+    write_file(path, text);
+    paths.push_back(path);
+  };
+  if (format == "xyz") put(stem + ".xyz", extended_xyz(snapshot, material));
+  if (format == "dump") put(stem + ".dump", lammps_dump(snapshot, step, material));
+  if (format == "paraview") {
+    const std::array<std::string, 3> texts = paraview_texts(snapshot, material);
+    for (std::size_t part = 0; part < parts.size(); ++part) put(stem + '_' + parts[part] + ".vtp", texts[part]);
+  }
+  require(!paths.empty(), "a state is written as paraview, xyz or dump");
+  return paths;
+}
+
+template void FrameFiles::write<2>(const Frame&, const Snapshot<2>&) const;
+template void FrameFiles::write<3>(const Frame&, const Snapshot<3>&) const;
+template std::vector<std::string> write_state<2>(const std::string&, const std::string&, const Snapshot<2>&, long,
+                                                 const std::vector<int>&);
+template std::vector<std::string> write_state<3>(const std::string&, const std::string&, const Snapshot<3>&, long,
+                                                 const std::vector<int>&);
+
+}  // namespace galet
