@@ -34,3 +34,30 @@ function(galet_library name)
   target_link_libraries(galet_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:galet_flags>)
   target_compile_features(galet_${name} PUBLIC cxx_std_20)
 endfunction()
+
+# Kernels are compiled once per instruction set (common/core/instructions.hpp).
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-mavx2 -mfma" galet_compiles_avx2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND galet_compiles_avx2)
+  set(GALET_AVX2 ON)
+else()
+  set(GALET_AVX2 OFF)
+endif()
+
+# galet_kernels(): the flags of the present folder's kernel/scalar.cpp and kernel/avx2.cpp.
+function(galet_kernels)
+  set(kernels kernel/scalar.cpp)
+  if(GALET_AVX2)
+    set_source_files_properties(kernel/avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    set_source_files_properties(kernel/dispatch.cpp PROPERTIES COMPILE_DEFINITIONS GALET_AVX2)
+    list(APPEND kernels kernel/avx2.cpp)
+  else()
+    set_source_files_properties(kernel/avx2.cpp PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
+  # All kernels of one instruction set are one file: without these limits raised GCC stops inlining in the middle of
+  # the inner loops.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS
+      "--param=inline-unit-growth=400;--param=large-function-growth=1000;--param=large-stack-frame-growth=4000")
+  endif()
+endfunction()
