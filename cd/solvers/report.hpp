@@ -7,7 +7,7 @@ enum class StopReason {
   converged,       ///< the residual is at or below the tolerance
   max_iterations,  ///< the sweeps ran out first
   stalled,         ///< sweeps change nothing any more but the last digits, and the tolerance is below that
-  unbounded        ///< impulses grow and the misfit stays: no motion satisfies all contacts
+  unbounded        ///< impulses grow and the misfit stays: no solution, or (mass ratios of 1e8) one much further off
 };
 
 /// What was made of the sweeps when the solver ended (cd/solvers/iteration.hpp).

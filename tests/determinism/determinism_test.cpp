@@ -73,11 +73,11 @@ class Use {
 };
 
 template <int D>
-void check_instructions(const RichLaw* law = nullptr) {
+void check_instructions(const RichLaw* law = nullptr, EngineKind kind = EngineKind::md) {
   const auto run = [&](Instructions set) {
     const Use use(set);
-    auto engine = small_run<D>(EngineKind::md, law);
-    engine->advance(400);
+    auto engine = small_run<D>(kind, law);
+    engine->advance(kind == EngineKind::md ? 400 : 50);
     EXPECT_GT(engine->snapshot().contacts->size(), 10u);
     return hash_of<D>(*engine);
   };
@@ -87,6 +87,7 @@ void check_instructions(const RichLaw* law = nullptr) {
 TEST(determinism, EveryInstructionSetGivesTheSameBits) {
   if (best_instructions() == Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
   check_instructions<2>(), check_instructions<3>();
+  check_instructions<2>(nullptr, EngineKind::cd), check_instructions<3>(nullptr, EngineKind::cd);
   for (const RichLaw& law : rich_laws()) {
     SCOPED_TRACE(law.name);
     check_instructions<2>(&law), check_instructions<3>(&law);
