@@ -205,6 +205,10 @@ bool check_honesty(std::uint64_t seed, const Hardness& hard) {
   double impulse = 0;  // largest change of a velocity by one impulse: what rounding is relative to
   for (const auto& r : solved.reaction) impulse = std::max(impulse, 100 * r.norm());
   EXPECT_LT(largest_difference(solved, again), 1e-13 * 3000 * (speed + impulse));
+  // From there a few sweeps that can't reach what is asked don't make it worse.
+  Iterate<Y> onward = solved;
+  EXPECT_LE(solver.solve(random.problem, {1e-300, 5}, onward).residual, reached * (1 + 1e-6) + 1e-15);
+  EXPECT_LE(residual(random.problem, onward, scratch), reached * (1 + 1e-6) + 1e-9);
   return report.stop == StopReason::converged;
 }
 
