@@ -41,3 +41,35 @@ function(galet_library name)
   target_compile_features(galet_${name} PUBLIC cxx_std_20)
   target_precompile_headers(galet_${name} PRIVATE ${GALET_COMMON_HEADERS})
 endfunction()
+
+# Kernels are compiled once per instruction set (common/core/instructions.hpp).
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-mavx2 -mfma" galet_compiles_avx2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND galet_compiles_avx2)
+  set(GALET_AVX2 ON)
+else()
+  set(GALET_AVX2 OFF)
+endif()
+
+# galet_kernels(): the flags of the present folder's kernel/scalar.cpp and kernel/avx2.cpp.
+function(galet_kernels)
+  set(kernels kernel/scalar.cpp)
+  if(GALET_AVX2)
+    set_source_files_properties(kernel/avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    set_source_files_properties(kernel/dispatch.cpp PROPERTIES COMPILE_DEFINITIONS GALET_AVX2)
+    list(APPEND kernels kernel/avx2.cpp)
+  else()
+    set_source_files_properties(kernel/avx2.cpp PROPERTIES HEADER_FILE_ONLY ON)
+  endif()
+  # A kernel file sees nothing but what it includes (md/kernel/dispatch.hpp says why).
+  set_source_files_properties(${kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  # All kernels of one instruction set are one file: without these limits raised GCC stops inlining in the middle of
+  # the inner loops. Sanitizers need no such speed, and take minutes to compile what was inlined: they watch the scalar
+  # build of the same source.
+  if(GALET_SANITIZE)
+    set_property(SOURCE kernel/avx2.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
+  elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS
+      "--param=inline-unit-growth=400;--param=large-function-growth=1000;--param=large-stack-frame-growth=4000")
+  endif()
+endfunction()

@@ -63,7 +63,7 @@ class ContactPass {
   static constexpr int D = Y.dim;
 
   explicit ContactPass(Kernel kernel)
-      : instructions_(md::instructions()), kernel_(kernel), function_(pass_function<Y>(instructions_, kernel)) {
+      : instructions_(galet::instructions()), kernel_(kernel), function_(pass_function<Y>(instructions_, kernel)) {
     shifts_.reserve(64);  // as many images as a usual cell has
   }
 

@@ -3,7 +3,8 @@ foreach(rule engines openmp length paths once)
   add_test(NAME structure.${rule} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/structure/check.sh ${rule})
 endforeach()
 add_test(NAME structure.kernels
-         COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/structure/kernels.sh $<TARGET_OBJECTS:galet_md> COMMAND_EXPAND_LISTS)
+         COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/structure/kernels.sh $<TARGET_OBJECTS:galet_md> $<TARGET_OBJECTS:galet_cd>
+                 COMMAND_EXPAND_LISTS)
 add_test(NAME structure.self_test COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/structure/self_test.sh)
 
 # The installed libraries carry no sanitizer or coverage flags: an outside project links them only without.

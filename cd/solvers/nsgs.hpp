@@ -1,4 +1,4 @@
-// Nonsmooth Gauss-Seidel over contact columns, matrix-free, with a momentum step.
+// Nonsmooth Gauss-Seidel over contact columns, matrix-free, with momentum and conjugate directions.
 //
 // One sweep goes through the colours; the contacts of a colour share no grain, so threads may take them in any
 // order with the same bits. The hub (the stress-driven cell) is touched by every contact: its velocity is held
@@ -6,22 +6,26 @@
 // is small enough that the hub's answer to all of it stays below a fifth of a contact's own W_NN, so that the
 // block-wise treatment converges like the sequential one.
 //
-// Momentum (AGS): after a sweep that took y to r, the next sweep starts from r + beta (r - r_previous), with
-// Nesterov's beta capped (0.9) and a restart when the sweep's change grows. Velocities and hub are affine in the
-// impulses, so they are extrapolated alongside; no product with W is needed. Measured: 2 to 11 times fewer sweeps in
-// dense packings from a cold start than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
+// What is made of the sweeps stands in iteration.hpp: momentum, and conjugate directions where it stalls. Velocities
+// and hub are affine in the impulses, so they are extrapolated alongside; no product with W is needed. Measured: 2 to
+// 11 times fewer sweeps in dense packings from a cold start than plain Gauss-Seidel (benchmarks/solver_sweeps.cpp).
 //
-// Sources: Moreau 1994; Jean 1999; Jourdan, Alart and Jean 1998; momentum after Nesterov 1983 with the restart of
-// O'Donoghue and Candes 2015. Cost per sweep: one visit of each contact.
+// Problems of rigid contacts between grains that roll freely are swept in records and groups of four
+// (plain_sweeps.hpp); this file sweeps all others, and defines what a sweep is.
+//
+// Sources: Moreau 1994; Jean 1999; Jourdan, Alart and Jean 1998. Cost per sweep: one visit of each contact.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "cd/laws/contact_bounds.hpp"
 #include "cd/laws/turning_contact.hpp"
 #include "cd/problem.hpp"
 #include "cd/residual.hpp"
+#include "cd/solvers/iteration.hpp"
+#include "cd/solvers/plain_sweeps.hpp"
 #include "cd/solvers/report.hpp"
 
 namespace galet::cd {
@@ -31,31 +35,23 @@ class Nsgs {
  public:
   static constexpr int D = Y.dim;
 
-  /// Starts from iterate.reaction with the velocities that belong to it, and leaves the solution there.
+  /// Starts from iterate.reaction with the velocities that belong to it, and leaves the solution there. Never worse
+  /// than the best of the iterates that were checked, the start included.
   SolveReport solve(const Problem<Y>& problem, const SolverOptions& options, Iterate<Y>& iterate) {
     SolveReport report;
     if (problem.size() == 0) return report;
     block_ = hub_block(problem);
-    restart_momentum(iterate);
-    int next_check = 1;
-    double change_before = 0;
-    for (int sweep_count = 1;; ++sweep_count) {
-      const ResidualParts change = sweep(problem, iterate);
-      report.sweeps = sweep_count;
-      const bool last = sweep_count >= options.max_sweeps;
-      // Testing the change of the sweep first, which costs nothing, saves most residual passes.
-      // (Measured: the residual is 0.3 to 0.5 of the relative change.)
-      const bool promising = change.map <= 4 * options.tolerance * options.tolerance * change.impulse;
-      if (last || (promising && sweep_count >= next_check)) {
-        report.residual = residual(problem, iterate, partial_residual_);
-        report.stop = report.residual <= options.tolerance ? StopReason::converged : StopReason::max_iterations;
-        if (last || report.stop == StopReason::converged) return report;
-        next_check = sweep_count + 1 + sweep_count / 16;
+    if constexpr (!Y.rolling)
+      if (plain_.load(problem, iterate, block_)) {
+        report = Iteration(plain_, options).run();
+        if (!start_is_better(problem, iterate, report)) plain_.unload(iterate);
+        return report;
       }
-      if (options.momentum > 0)
-        extrapolate(iterate, options.momentum, change.map > 1.1 * change_before && change_before > 0);
-      change_before = change.map;
-    }
+    copy_state(iterate, start_);
+    General general(*this, problem, iterate);
+    report = Iteration(general, options).run();
+    if (start_is_better(problem, start_, report)) copy_state(start_, iterate);
+    return report;
   }
 
  private:
@@ -146,57 +142,93 @@ class Nsgs {
     return {weighted_square(problem, k, change), impulse};
   }
 
-  void restart_momentum(const Iterate<Y>& iterate) {
-    momentum_ = 1;
-    since_restart_ = 0;
-    previous_.reaction.reserve(iterate.reaction.capacity());
-    copy_with_room(iterate.reaction, previous_.reaction);
-    copy_with_room(iterate.velocity, previous_.velocity);
-    if constexpr (Y.friction) copy_with_room(iterate.spin, previous_.spin);
-    copy_with_room(iterate.hub_rate, previous_.hub_rate);
-    previous_.gradient = iterate.gradient;
+  /// Where the solver failed its start may be better than what it found.
+  bool start_is_better(const Problem<Y>& problem, const Iterate<Y>& start, SolveReport& report) {
+    if (report.stop == StopReason::converged) return false;
+    const double at_start = residual(problem, start, partial_residual_);
+    if (!(at_start < report.residual)) return false;
+    report.residual = at_start;
+    return true;
   }
 
-  void extrapolate(Iterate<Y>& iterate, double most, bool restart) {
-    const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum_ * momentum_));
-    double beta = std::min((momentum_ - 1) / next, most);
-    momentum_ = next;
-    ++since_restart_;
-    if (restart && since_restart_ > 2) {
-      momentum_ = 1;
-      since_restart_ = 0;
-      beta = 0;
+  static void copy_state(const Iterate<Y>& from, Iterate<Y>& to) {
+    to.reaction.reserve(from.reaction.capacity());
+    copy_with_room(from.reaction, to.reaction);
+    copy_with_room(from.velocity, to.velocity);
+    if constexpr (Y.friction) copy_with_room(from.spin, to.spin);
+    copy_with_room(from.hub_rate, to.hub_rate);
+    to.gradient = from.gradient;
+  }
+
+  /// Sweeps over the iterate itself, for any problem (the interface of PlainSweeps).
+  class General {
+   public:
+    General(Nsgs& solver, const Problem<Y>& problem, Iterate<Y>& iterate)
+        : solver_(solver), problem_(problem), now_(iterate) {
+      restart();
     }
-    move(iterate.reaction, previous_.reaction, beta);
-    move(iterate.velocity, previous_.velocity, beta);
-    if constexpr (Y.friction) move(iterate.spin, previous_.spin, beta);
-    move(iterate.hub_rate, previous_.hub_rate, beta);
-    const Mat<D> gradient = iterate.gradient;
-    iterate.gradient += beta * (gradient - previous_.gradient);
-    previous_.gradient = gradient;
-  }
 
-  /// now += beta (now - before); before = now.
-  template <class Values>
-  static void move(Values& now, Values& before, double beta) {
-    parallel_ranges(
-        now.size(),
-        [&](std::size_t begin, std::size_t end) {
-          for (std::size_t k = begin; k < end; ++k) {
-            const typename Values::value_type here = now[k];
-            if (beta != 0) now[k] += beta * (here - before[k]);
-            before[k] = here;
-          }
-        },
-        4096);
-  }
+    ResidualParts sweep(double beta) {
+      each_column(solver_.previous_, [&](auto& now, auto& before, auto&) {
+        const std::remove_reference_t<decltype(now)> here = now;
+        if (beta != 0) now += beta * (here - before);
+        before = here;
+      });
+      return solver_.sweep(problem_, now_);
+    }
+    ResidualParts sweep_along(double beta) {
+      if (!directed_) copy_state(now_, solver_.direction_);
+      each_column(solver_.direction_, [&](auto& now, auto& before, auto& step) {
+        if (directed_) now += beta * step;
+        step = now - before;
+        before = now;
+      });
+      directed_ = true;
+      return solver_.sweep(problem_, now_);
+    }
+    double residual() { return cd::residual(problem_, now_, solver_.partial_residual_); }
+    void restart() {
+      copy_state(now_, solver_.previous_);
+      directed_ = false;
+    }
+    void keep() { copy_state(now_, solver_.kept_); }
+    void return_to_kept() {
+      copy_state(solver_.kept_, now_);
+      restart();
+    }
+
+   private:
+    /// Calls step(now, before, other) for each value of the iterate.
+    template <class Step>
+    void each_column(Iterate<Y>& other, const Step& step) {
+      Iterate<Y>& before = solver_.previous_;
+      const auto each = [&](auto& now, auto& old, auto& third) {
+        parallel_ranges(
+            now.size(),
+            [&](std::size_t begin, std::size_t end) {
+              for (std::size_t k = begin; k < end; ++k) step(now[k], old[k], third[k]);
+            },
+            4096);
+      };
+      each(now_.reaction, before.reaction, other.reaction);
+      each(now_.velocity, before.velocity, other.velocity);
+      if constexpr (Y.friction) each(now_.spin, before.spin, other.spin);
+      each(now_.hub_rate, before.hub_rate, other.hub_rate);
+      step(now_.gradient, before.gradient, other.gradient);
+    }
+
+    Nsgs& solver_;
+    const Problem<Y>& problem_;
+    Iterate<Y>& now_;
+    bool directed_ = false;
+  };
 
   std::size_t block_ = 1;
-  double momentum_ = 1;
-  int since_restart_ = 0;
-  Iterate<Y> previous_;
+  Iterate<Y> start_, previous_, direction_, kept_;  ///< of General
   std::vector<ResidualParts> partial_change_, partial_residual_;
   std::vector<Mat<D>> partial_virial_;
+  struct None {};
+  std::conditional_t<Y.rolling, None, PlainSweeps<Y>> plain_;
 };
 
 }  // namespace galet::cd

@@ -1,10 +1,5 @@
 #include "md/kernel/dispatch.hpp"
 
-#include <atomic>
-#include <string>
-
-#include "common/core/error.hpp"
-
 namespace galet::md {
 
 // Defined in the file of each instruction set.
@@ -12,35 +7,6 @@ template <Layout Y, int W>
 PassFunction pass_of_width(Kernel kernel);
 template <Layout Y, int W>
 GrainFunctions grain_functions_of_width();
-
-namespace {
-
-bool has(Instructions set) {
-#ifdef GALET_AVX2
-  if (set == Instructions::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#endif
-  return set == Instructions::scalar;
-}
-
-std::atomic<Instructions>& chosen() {
-  static std::atomic<Instructions> set = best_instructions();
-  return set;
-}
-
-}  // namespace
-
-std::string_view to_string(Instructions set) { return set == Instructions::avx2 ? "avx2" : "scalar"; }
-
-Instructions best_instructions() { return has(Instructions::avx2) ? Instructions::avx2 : Instructions::scalar; }
-
-Instructions instructions() { return chosen(); }
-
-void use_instructions(Instructions set) {
-  if (!has(set)) throw InputError("this processor or build has no " + std::string(to_string(set)) + " kernels");
-  chosen() = set;
-}
-
-int lane_width(Instructions set) { return set == Instructions::avx2 ? 4 : 1; }
 
 template <Layout Y>
 PassFunction pass_function([[maybe_unused]] Instructions set, Kernel kernel) {

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/core/instructions.hpp"
 #include "common/scene/loading.hpp"
 #include "common/scene/packing.hpp"
 #include "common/scene/stages.hpp"
-#include "md/kernel/dispatch.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
 #include "src/compare.hpp"
@@ -53,7 +53,7 @@ void add_notes(Outlook& outlook) {
         outlook.scene.md.allow_unsafe_dt ? ", as allowed by md.allow_unsafe_dt" : ": md will refuse to run"));
   if (derived.md_dt)
     outlook.notes.push_back(fmt::format("on this machine md uses its {} kernels: {} contacts at once",
-                                        to_string(md::instructions()), md::lane_width(md::instructions())));
+                                        to_string(instructions()), lane_width(instructions())));
   if (outlook.scene.initial.kind == InitialKind::compressed_gas)
     outlook.notes.push_back(
         fmt::format("before the run the gas is compressed, for at most {:g} inertial times; that is not in the cost",

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/core/instructions.hpp"
 #include "common/core/parallel.hpp"
-#include "md/kernel/dispatch.hpp"
 #include "tests/determinism/sheared.hpp"
 
 namespace galet::test {
@@ -63,30 +63,31 @@ TEST(determinism, ThreadsAreReallyUsed) {
 /// Engines made while it lives use the instruction set.
 class Use {
  public:
-  explicit Use(md::Instructions set) : before_(md::instructions()) { md::use_instructions(set); }
-  ~Use() { md::use_instructions(before_); }
+  explicit Use(Instructions set) : before_(instructions()) { use_instructions(set); }
+  ~Use() { use_instructions(before_); }
   Use(const Use&) = delete;
   Use& operator=(const Use&) = delete;
 
  private:
-  md::Instructions before_;
+  Instructions before_;
 };
 
 template <int D>
-void check_instructions(const RichLaw* law = nullptr) {
-  const auto run = [&](md::Instructions set) {
+void check_instructions(const RichLaw* law = nullptr, EngineKind kind = EngineKind::md) {
+  const auto run = [&](Instructions set) {
     const Use use(set);
-    auto engine = small_run<D>(EngineKind::md, law);
-    engine->advance(400);
+    auto engine = small_run<D>(kind, law);
+    engine->advance(kind == EngineKind::md ? 400 : 50);
     EXPECT_GT(engine->snapshot().contacts->size(), 10u);
     return hash_of<D>(*engine);
   };
-  EXPECT_EQ(run(md::best_instructions()), run(md::Instructions::scalar)) << "D = " << D;
+  EXPECT_EQ(run(best_instructions()), run(Instructions::scalar)) << "D = " << D;
 }
 
 TEST(determinism, EveryInstructionSetGivesTheSameBits) {
-  if (md::best_instructions() == md::Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
+  if (best_instructions() == Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
   check_instructions<2>(), check_instructions<3>();
+  check_instructions<2>(nullptr, EngineKind::cd), check_instructions<3>(nullptr, EngineKind::cd);
   for (const RichLaw& law : rich_laws()) {
     SCOPED_TRACE(law.name);
     check_instructions<2>(&law), check_instructions<3>(&law);
@@ -95,9 +96,9 @@ TEST(determinism, EveryInstructionSetGivesTheSameBits) {
 
 /// The same with planes, and without friction (a layout of its own).
 TEST(determinism, EveryInstructionSetGivesTheSameBitsBetweenPlanes) {
-  if (md::best_instructions() == md::Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
+  if (best_instructions() == Instructions::scalar) GTEST_SKIP() << "this processor has only scalar kernels";
   for (double friction : {0.0, 0.4}) {
-    const auto run = [&](md::Instructions set) {
+    const auto run = [&](Instructions set) {
       const Use use(set);
       Scene scene = periodic_scene(3, friction, 0.5, 1e3);
       scene.cell.periodic = {true, true, false};
@@ -114,7 +115,7 @@ TEST(determinism, EveryInstructionSetGivesTheSameBitsBetweenPlanes) {
       EXPECT_GT(at_planes, 0);
       return hash_of<3>(*engine);
     };
-    EXPECT_EQ(run(md::best_instructions()), run(md::Instructions::scalar)) << "mu = " << friction;
+    EXPECT_EQ(run(best_instructions()), run(Instructions::scalar)) << "mu = " << friction;
   }
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The objects of the kernels define nothing that another file could define too: else the linker might keep the one that
-# is compiled for a processor that is not there.  kernels.sh OBJECT...   (of one library; others are passed over)
+# is compiled for a processor that is not there.  kernels.sh OBJECT...   (objects of others are passed over)
 #
 # Every symbol must carry the width of the lanes among its template arguments: Li1E (scalar) or Li4E (avx2).
 set -u
