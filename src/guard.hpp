@@ -5,9 +5,10 @@
 //   a grain's centre is behind a plane;
 //   a grain's speed |v| is above guard.speed v_s, or the kinetic energy per grain above guard.energy m v_s^2 / 2.
 // v_s is the scene's own speed: the largest of the grains' speeds at the start, of the imposed rates times the cell's
-// size, of planes and rigid bodies, of a fall through the cell, sqrt(2 |gravity| H), sqrt(P d^D / m), sqrt(F d / m) for the
-// forces F of cohesion and on planes and bodies, and (md) a thousandth of d sqrt(K_N / m), the speed of sound. A scene
-// that has none of these has no bounds on speed and energy. Cost: one pass over grains and contacts, and a snapshot.
+// size, of planes and rigid bodies, of a fall through the cell, sqrt(2 |gravity| H), sqrt(P d^D / m), sqrt(F d / m) for
+// the forces F of cohesion and on planes and bodies, and (md) a thousandth of d sqrt(K_N / m), the speed of sound. A
+// scene that has none of these has no bounds on speed and energy. Cost: one pass over grains and contacts, and a
+// snapshot.
 #pragma once
 
 #include <string_view>

@@ -17,7 +17,8 @@ namespace galet {
 
 template <int D>
 void NeighbourSearch<D>::find(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-                              std::span<const Plane<D>> planes, std::span<const int> group, double limit, PairColumns<D>& pairs) {
+                              std::span<const Plane<D>> planes, std::span<const int> group, double limit,
+                              PairColumns<D>& pairs) {
   pairs.i.clear(), pairs.j.clear(), pairs.image.clear();
   if (position.empty()) return;
   const Sight sight{position, radius, cell, planes, group, cell.box.inverse(), limit};

@@ -18,7 +18,7 @@ struct RigidBodies {
   std::vector<Vec<D>> offset;      ///< of each grain from its body's centre, in the body's frame; zero for free grains
   std::vector<double> contact_mass;  ///< of each grain: what a blow on it meets, see contact_masses()
 
-  bool any_turning = false;          ///< whether one of them ever turns
+  bool any_turning = false;  ///< whether one of them ever turns
 
   bool none() const { return body.empty(); }
   bool free(int grain) const { return of.empty() || of[grain] < 0; }
