@@ -48,6 +48,8 @@ class Nsgs {
         return report;
       }
     copy_state(iterate, start_);
+    // What few solves need has its memory before, so that no later step allocates.
+    copy_state(iterate, kept_), copy_state(iterate, direction_);
     General general(*this, problem, iterate);
     report = Iteration(general, options).run();
     if (start_is_better(problem, start_, report)) copy_state(start_, iterate);

@@ -18,25 +18,19 @@
 #include "cd/problem.hpp"
 #include "cd/residual.hpp"
 #include "common/core/parallel.hpp"
+#include "common/graph/colouring.hpp"
 
 namespace galet::cd {
 
 /// Doubles in cache lines.
 class LineVector {
  public:
-  void resize(std::size_t doubles) {
-    const std::size_t lines = (doubles + 7) / 8;
-    if (lines > lines_.capacity()) lines_.reserve(lines + lines / 2);
-    lines_.resize(lines);
-  }
+  void reserve(std::size_t doubles) { lines_.reserve((doubles + 7) / 8); }
+  void resize(std::size_t doubles) { lines_.resize((doubles + 7) / 8); }
   std::size_t size() const { return 8 * lines_.size(); }
   double* data() { return lines_.empty() ? nullptr : lines_[0].value; }
   const double* data() const { return lines_.empty() ? nullptr : lines_[0].value; }
   void copy(const LineVector& other) { lines_.assign(other.lines_.begin(), other.lines_.end()); }
-  void match(const LineVector& other) {
-    lines_.reserve(other.lines_.capacity());
-    copy(other);
-  }
 
  private:
   struct alignas(64) Line {
@@ -115,14 +109,14 @@ class PlainSweeps {
       double* r = reactions_.data() + reaction_at(g, 0);
       std::copy(r, r + R * group_lanes, r + R * group_lanes);
     }
-    bodies_before_.match(bodies_);
+    bodies_before_.copy(bodies_);
     hub_before_ = hub_rate_, gradient_before_ = gradient_;
     directed_ = false;
   }
 
   /// Remembers the present impulses, and returns to them.
   void keep() {
-    kept_reactions_.match(reactions_), kept_bodies_.match(bodies_);
+    kept_reactions_.copy(reactions_), kept_bodies_.copy(bodies_);
     kept_hub_ = hub_rate_, kept_gradient_ = gradient_;
   }
   void return_to_kept() {
@@ -155,9 +149,9 @@ class PlainSweeps {
   /// Puts the contacts of each colour into groups; contacts that share bodies get one each.
   void lay_out(const Problem<Y>& problem, std::size_t hub_block) {
     contact_.clear(), stretches_.clear();
-    contact_.reserve(problem.i.capacity() + problem.i.capacity() / 2);
     const int colours = static_cast<int>(problem.group.size()) - 1;
     const std::size_t block = problem.hub.empty() ? std::numeric_limits<std::size_t>::max() : hub_block / group_lanes;
+    make_room(problem, block);
     for (int c = 0; c < colours; ++c) {
       const bool shared = problem.sequential_tail && c == colours - 1;
       const std::size_t first = groups();
@@ -169,6 +163,23 @@ class PlainSweeps {
       for (std::size_t g = first; g < groups(); g += std::min(block, groups() - g))
         stretches_.push_back({g, g + std::min(block, groups() - g), shared});
     }
+  }
+
+  /// Memory for as many contacts as the problem has room for, each colour's last group filled up: numbers of contacts
+  /// wander from step to step. What few solves need is reserved too, so that no later step allocates.
+  void make_room(const Problem<Y>& problem, std::size_t block) {
+    constexpr std::size_t most_fillers = group_lanes * (Colouring::most_colours + 2);
+    std::size_t room = problem.i.capacity() + most_fillers;
+    if (problem.sequential_tail) room += group_lanes * (problem.group.back() - *(problem.group.end() - 2));
+    contact_.reserve(room);
+    stretches_.reserve(Colouring::most_colours + 2 + room / group_lanes / std::min(block, room));
+    where_.reserve(2 * room);
+    contacts_.reserve(room * C::count), reactions_.reserve(2 * R * room);
+    kept_reactions_.reserve(2 * R * room), direction_.reserve(R * room);
+    const std::size_t bodies = (problem.inverse_mass.size() + 1) * record;
+    for (LineVector* values : {&bodies_, &bodies_before_, &kept_bodies_, &body_direction_}) values->reserve(bodies);
+    kept_hub_.reserve(problem.hub.size()), hub_direction_.reserve(problem.hub.size());
+    partial_.reserve(room / chunk_size + 2);
   }
 
   void load_bodies(const Problem<Y>& problem, const Iterate<Y>& iterate) {
@@ -264,7 +275,7 @@ class PlainSweeps {
   template <class Body>
   ResidualParts in_chunks(std::size_t begin, std::size_t end, bool sequential, const Body& body) {
     const std::size_t chunks = (end - begin + chunk_groups - 1) / chunk_groups;
-    if (partial_.size() < chunks) partial_.resize(chunks + chunks / 2);
+    if (partial_.size() < chunks) partial_.resize(chunks);
     const auto work = [&](std::size_t first, std::size_t last) {
       for (std::size_t chunk = first; chunk < last; ++chunk) {
         partial_[chunk] = SweepSums{};
