@@ -173,19 +173,24 @@ struct Iterate {
   Column<Reaction<Y>> reaction;
 };
 
+// Functions of a contact below have a parameter MayTurn: false where the caller knows that the contact is none of a
+// body that turns, as in the sweeps of the solver, whose speed it decides.
+
 /// Relative velocity u of contact k, spin terms included, for the velocity gradient L of the cell.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>& iterate, const Mat<Y.dim>& gradient,
                                     std::size_t k) {
   constexpr int D = Y.dim;
   const int i = problem.i[k], j = problem.j[k];
   const Vec<D>& n = problem.normal[k];
   Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (gradient * n);
-  if constexpr (Y.friction) {
+  if constexpr (Y.friction && MayTurn) {
     if (problem.turns(k)) [[unlikely]] {
       const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
       return u + cross(iterate.spin[j], bent.lever_j) - cross(iterate.spin[i], bent.lever_i);
     }
+  }
+  if constexpr (Y.friction) {
     const Spin<D> rolling = problem.arm_i[k] * iterate.spin[i] + problem.arm_j[k] * iterate.spin[j];
     u -= cross(rolling, n);
   }
@@ -249,11 +254,11 @@ inline Reaction<Y> composed(const Vec<Y.dim>& normal, const Components<Y>& parts
 }
 
 /// Relative motion of contact k by direction, for the velocity gradient L of the cell.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline Components<Y> relative_motion(const Problem<Y>& problem, const Iterate<Y>& iterate, const Mat<Y.dim>& gradient,
                                      std::size_t k) {
   const Vec<Y.dim>& n = problem.normal[k];
-  const Vec<Y.dim> u = relative_velocity(problem, iterate, gradient, k);
+  const Vec<Y.dim> u = relative_velocity<Y, MayTurn>(problem, iterate, gradient, k);
   Components<Y> motion;
   motion.normal = n.dot(u);
   if constexpr (Y.friction) {
@@ -273,10 +278,10 @@ inline Components<Y> relative_motion(const Problem<Y>& problem, const Iterate<Y>
 }
 
 /// The motion that the laws are about: with offset, lag and compliance. `r` is the contact's impulse.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline Components<Y> law_motion(const Problem<Y>& problem, const Iterate<Y>& iterate, const Mat<Y.dim>& gradient,
                                 std::size_t k, const Components<Y>& r) {
-  Components<Y> motion = relative_motion(problem, iterate, gradient, k);
+  Components<Y> motion = relative_motion<Y, MayTurn>(problem, iterate, gradient, k);
   motion.normal += problem.offset[k];
   if constexpr (Y.friction) {
     if (problem.lagged) {
@@ -332,10 +337,10 @@ inline void push_at(const Problem<Y>& problem, Iterate<Y>& iterate, int body, co
 }
 
 /// Adds the impulse p (on j, -p on i) of contact k to the velocities of its bodies; the hub is the caller's.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline void add_impulse(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, const Vec<Y.dim>& p) {
   const int i = problem.i[k], j = problem.j[k];
-  if constexpr (Y.friction) {
+  if constexpr (Y.friction && MayTurn) {
     if (problem.turns(k)) [[unlikely]] {
       const TurningContact<Y.dim>& bent = problem.bent[k - problem.first_turning];
       push_at(problem, iterate, i, bent.lever_i, Vec<Y.dim>(-p));
@@ -360,11 +365,11 @@ inline void add_torque(const Problem<Y>& problem, Iterate<Y>& iterate, std::size
 }
 
 /// Adds a whole impulse of contact k to its bodies and p (x) b to the virial that the hub will be given.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline void add_reaction(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, const Reaction<Y>& reaction,
                          Mat<Y.dim>& virial) {
   const Vec<Y.dim> p = impulse_vector<Y>(problem.normal[k], reaction);
-  add_impulse(problem, iterate, k, p);
+  add_impulse<Y, MayTurn>(problem, iterate, k, p);
   if constexpr (Y.rolling) add_torque(problem, iterate, k, torque_impulse<Y>(reaction));
   virial += p * (problem.distance[k] * problem.normal[k]).transpose();
 }

@@ -91,13 +91,12 @@ class Nsgs {
       partial_change_.resize(chunk_count(count));
       partial_virial_.resize(chunk_count(count));
     }
+    const bool turning = problem.turns(begin);  // a group is all of one kind
     const auto body = [&](std::size_t chunk, std::size_t from, std::size_t to) {
-      ResidualParts change;
-      Mat<D> virial = Mat<D>::Zero();
-      const Mat<D> gradient = iterate.gradient;  // a local copy stays in registers
-      for (std::size_t k = begin + from; k < begin + to; ++k) change += visit(problem, iterate, gradient, k, virial);
-      partial_change_[chunk] = change;
-      partial_virial_[chunk] = virial;
+      if (turning)
+        sweep_chunk<true>(problem, iterate, begin + from, begin + to, chunk);
+      else
+        sweep_chunk<false>(problem, iterate, begin + from, begin + to, chunk);
     };
     if (sequential)
       for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk)
@@ -114,20 +113,36 @@ class Nsgs {
     return total;
   }
 
+  template <bool Turning>
+  void sweep_chunk(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t from, std::size_t to,
+                   std::size_t chunk) {
+    ResidualParts change;
+    Mat<D> virial = Mat<D>::Zero();
+    const Mat<D> gradient = iterate.gradient;  // a local copy stays in registers
+    for (std::size_t k = from; k < to; ++k) change += visit<Turning>(problem, iterate, gradient, k, virial);
+    partial_change_[chunk] = change;
+    partial_virial_[chunk] = virial;
+  }
+
+  template <bool Turning>
   static ResidualParts visit(const Problem<Y>& problem, Iterate<Y>& iterate, const Mat<D>& gradient, std::size_t k,
                              Mat<D>& virial) {
     if (problem.wn[k] == 0) return {};
     const Vec<D>& n = problem.normal[k];
     const Reaction<Y> before = iterate.reaction[k];
     const Components<Y> r = components<Y>(n, before);
-    const Components<Y> motion = law_motion(problem, iterate, gradient, k, r);
-    const Reaction<Y> after = composed<Y>(n, problem.turns(k) ? solve_turning_contact<Y>(problem, k, motion, r)
-                                                              : solve_contact<Y>(problem, k, motion, r));
+    const Components<Y> motion = law_motion<Y, Turning>(problem, iterate, gradient, k, r);
+    Components<Y> next;
+    if constexpr (Turning)
+      next = solve_turning_contact<Y>(problem, k, motion, r);
+    else
+      next = solve_contact<Y>(problem, k, motion, r);
+    const Reaction<Y> after = composed<Y>(n, next);
     const Reaction<Y> change = after - before;
     const double impulse = weighted_square(problem, k, after);
     if (change.isZero(0)) return {0, impulse};
     iterate.reaction[k] = after;
-    add_reaction(problem, iterate, k, change, virial);
+    add_reaction<Y, Turning>(problem, iterate, k, change, virial);
     return {weighted_square(problem, k, change), impulse};
   }
 
