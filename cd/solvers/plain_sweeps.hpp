@@ -51,6 +51,7 @@ class PlainSweeps {
   bool load(const Problem<Y>& problem, const Iterate<Y>& iterate, std::size_t hub_block) {
     if (problem.compliant || problem.lagged || !problem.mobility.empty()) return false;
     if (!problem.hub.empty() && hub_block < group_lanes) return false;
+    if (problem.first_turning < problem.size()) return false;
     for (std::size_t k = 0; k < problem.size(); ++k)
       if (problem.i[k] == problem.j[k]) return false;  // a grain and its own image
     problem_ = &problem;
@@ -153,7 +154,7 @@ class PlainSweeps {
     const std::size_t block = problem.hub.empty() ? std::numeric_limits<std::size_t>::max() : hub_block / group_lanes;
     make_room(problem, block);
     for (int c = 0; c < colours; ++c) {
-      const bool shared = problem.sequential_tail && c == colours - 1;
+      const bool shared = c == problem.shared[0] || c == problem.shared[1];
       const std::size_t first = groups();
       for (int k = problem.group[c]; k < problem.group[c + 1]; ++k) {
         contact_.push_back(k);
@@ -170,7 +171,8 @@ class PlainSweeps {
   void make_room(const Problem<Y>& problem, std::size_t block) {
     constexpr std::size_t most_fillers = group_lanes * (Colouring::most_colours + 2);
     std::size_t room = problem.i.capacity() + most_fillers;
-    if (problem.sequential_tail) room += group_lanes * (problem.group.back() - *(problem.group.end() - 2));
+    for (const int c : problem.shared)
+      if (c >= 0) room += group_lanes * (problem.group[c + 1] - problem.group[c]);
     contact_.reserve(room);
     stretches_.reserve(Colouring::most_colours + 2 + room / group_lanes / std::min(block, room));
     where_.reserve(2 * room);
