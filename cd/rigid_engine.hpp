@@ -27,6 +27,7 @@
 #include "cd/elastic_contacts.hpp"
 #include "cd/problem.hpp"
 #include "cd/solvers/nsgs.hpp"
+#include "cd/summary_columns.hpp"
 #include "common/core/error.hpp"
 #include "common/engine/bodies.hpp"
 #include "common/neighbour/verlet_list.hpp"
@@ -113,33 +114,20 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     bodies_.save(archive);
     list_.save(archive);
     history_.save(archive);
-    archive.reals["cd.numbers"] = {dt_,
-                                   last_dt_,
-                                   skin_,
-                                   summary_.worst_residual,
-                                   summary_.residual_sum,
-                                   summary_.penetration,
-                                   summary_.dissipated,
-                                   summary_.gained};
+    archive.reals["cd.numbers"] = {dt_, last_dt_, skin_};
     archive.integers["steps"] = {steps_};
-    archive.integers["cd.summary"] = {summary_.steps, summary_.sweeps, summary_.missed, summary_.corrections,
-                                      summary_.divided};
+    save_summary(archive, summary_);
   }
 
   void restore(const Archive& archive) override {
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
     history_.restore(archive, list_.size());
-    std::vector<double> numbers(8);
+    std::vector<double> numbers(3);
     take_column(archive, "cd.numbers", numbers);
     dt_ = numbers[0], last_dt_ = numbers[1], skin_ = numbers[2];
-    summary_.worst_residual = numbers[3], summary_.residual_sum = numbers[4], summary_.penetration = numbers[5];
-    summary_.dissipated = numbers[6], summary_.gained = numbers[7];
     steps_ = integer_column(archive, "steps").at(0);
-    const auto& counts = integer_column(archive, "cd.summary");
-    if (counts.size() != 5) throw InputError("column 'cd.summary' of the checkpoint has the wrong length");
-    summary_.steps = counts[0], summary_.sweeps = counts[1], summary_.missed = counts[2];
-    summary_.corrections = counts[3], summary_.divided = counts[4];
+    restore_summary(archive, summary_);
     prepare_problem();
   }
 
