@@ -9,6 +9,8 @@
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   cd_piles         the contact solver on packings under gravity, 400 to 50000 contacts, and on pile3d where GALET_FCLIB holds it
+#   cd_compliance    deflections of a packing under a stress increment in both engines, kappa = 1e3 to 1e6, and their cost
+#   cd_cell_inertia  plane shear with the cell's inertia a tenth to ten times the default, both engines
 #   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
@@ -23,7 +25,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
@@ -38,6 +40,8 @@ for name in "${names[@]}"; do
     md_scaling) "$bin/benchmarks/md_scaling" --quick | tee "$out/md_scaling.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
+    cd_compliance) "$bin/benchmarks/cd_compliance" | tee "$out/cd_compliance.csv" ;;
+    cd_cell_inertia) "$bin/benchmarks/cd_cell_inertia" "$out/cd_cell_inertia" | tee "$out/cd_cell_inertia.csv" ;;
     cd_piles)
       pile=${GALET_FCLIB:+$GALET_FCLIB/pile3d.geo}
       if [ -n "$pile" ] && [ -f "$pile" ]; then "$bin/benchmarks/cd_piles" "$out" "$pile"; else "$bin/benchmarks/cd_piles" "$out"; fi ;;

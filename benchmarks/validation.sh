@@ -112,6 +112,30 @@ echo "## Contact solver"
 printf '\nSweeps from a cold start on a dense packing under pressure, plain and with momentum.\n\n'
 csv_table "$results/solver_sweeps/solver_sweeps.csv"
 measured_on solver_sweeps
+if [ -f "$results/cd_compliance/cd_compliance.csv" ]; then
+  cat <<'END'
+## Elastic contacts in both engines
+
+A packing of 125 spheres takes up a small deviatoric stress increment with friction, in md and in cd with compliance, from the same positions.
+`change`: largest change of a deflection over the mean one; `deflection`, `force`: largest difference between the engines over the
+largest change. cd takes steps of 0.2 inertial times whatever kappa.
+
+END
+  csv_table "$results/cd_compliance/cd_compliance.csv"
+  measured_on cd_compliance
+fi
+if [ -f "$results/cd_cell_inertia/cd_cell_inertia.csv" ]; then
+  cat <<'END'
+## Inertia of the stress-driven cell
+
+Plane shear of 400 disks at I = 0.1 with the cell's inertia a tenth to ten times the default: means over a strain of 30 with their
+standard errors.
+
+END
+  csv_table "$results/cd_cell_inertia/cd_cell_inertia.csv"
+  printf '![mu* and Phi against the inertia of the cell](../benchmarks/results/cd_cell_inertia/cd_cell_inertia.svg)\n\n'
+  measured_on cd_cell_inertia
+fi
 cat <<'END'
 ## Cost of md against the number of grains
 
