@@ -136,6 +136,29 @@ END
   printf '![mu* and Phi against the inertia of the cell](../benchmarks/results/cd_cell_inertia/cd_cell_inertia.svg)\n\n'
   measured_on cd_cell_inertia
 fi
+if [ -f "$results/cd_piles/growth.csv" ]; then
+  cat <<'END'
+## Contact solver on packings under gravity
+
+Piles cut out of one packing of spheres, cold starts to errS = 1e-4, and a pile of another code from seven perturbed starts (empty: not reached in
+14000 sweeps). Processor seconds.
+
+END
+  csv_table "$results/cd_piles/growth.csv"
+  printf '![time against contacts](../benchmarks/results/cd_piles/growth.svg)\n\n'
+  [ ! -f "$results/cd_piles/pile3d.csv" ] || csv_table "$results/cd_piles/pile3d.csv"
+  measured_on cd_piles
+fi
+if [ -f "$results/neighbour_sizes/neighbour_sizes.csv" ]; then
+  cat <<'END'
+## Neighbour lists of unlike grains
+
+Cost of making a list from nothing.
+
+END
+  csv_table "$results/neighbour_sizes/neighbour_sizes.csv"
+  measured_on neighbour_sizes
+fi
 cat <<'END'
 ## Cost of md against the number of grains
 

@@ -73,13 +73,16 @@ void write_csv(const std::string& path, const CsvTable& table) {
   const auto separator = [](std::size_t k) { return k == 0 ? "" : ","; };
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const CsvColumn& column = table.columns[k];
-    text += separator(k) +
-            quoted_cell(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
+    text += separator(k);
+    text += quoted_cell(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
   }
   text += '\n';
   for (const std::vector<CsvCell>& row : table.rows) {
     require(row.size() == table.columns.size(), "every row of a table needs one cell per column");
-    for (std::size_t k = 0; k < row.size(); ++k) text += separator(k) + std::visit(CellText{}, row[k]);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      text += separator(k);
+      text += std::visit(CellText{}, row[k]);
+    }
     text += '\n';
   }
   write_file(path, text);
