@@ -110,7 +110,7 @@ void grow(const std::filesystem::path& out) {
     times.x.push_back(static_cast<double>(pile.problem.size())), times.y.push_back(hits[0].seconds);
   }
   const double rate = std::log(times.y.back() / times.y[1]) / std::log(times.x.back() / times.x[1]);
-  fmt::print("{}time ~ contacts^{{{:.2f}}}\n", table, rate);
+  fmt::print("{}time ~ contacts^{:.2f}\n", table, rate);
   write_file((out / "growth.csv").string(), table);
   Figure figure;
   figure.title = fmt::format("Time to errS = 1e-4, cold start: contacts^{{{:.2f}}}", rate);
