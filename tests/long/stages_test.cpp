@@ -70,13 +70,14 @@ TEST(Loadings, CreepHoldsThePresentStress) {
     SCOPED_TRACE(to_string(kind));
     Scene scene = assembled(2, 100);
     add(scene, LoadingKind::biaxial, 5).loading.compression_rate = 2e-3;
-    add(scene, LoadingKind::biaxial, 30).loading.hold_axial = true;
+    // Packings of 100 grains that have just yielded rearrange for up to 15 inertial times: averages are of 50 to 100.
+    add(scene, LoadingKind::biaxial, 100).loading.hold_axial = true;
     const RunResult result = Simulation<2>(scene, kind).run();
     ASSERT_EQ(result.ending, Ending::finished) << result.failure;
     const double held = result.stages[1].last[Observable::sigma_yy];
     EXPECT_GT(held, 1.1);
-    EXPECT_NEAR(result.averages[Observable::sigma_yy].value, held, 0.02 * held);
-    EXPECT_NEAR(result.averages[Observable::sigma_xx].value, 1, 0.02);
+    EXPECT_NEAR(result.averages[Observable::sigma_yy].value, held, 1e-3 * held);
+    EXPECT_NEAR(result.averages[Observable::sigma_xx].value, 1, 1e-3);
   }
 }
 

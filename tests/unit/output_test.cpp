@@ -97,6 +97,8 @@ TEST_P(OutputOfEngines, MeasureOnlyWhatWasAskedFor) {
 TEST_P(OutputOfEngines, WriteWhatWasAskedFor) {
   Scene scene = shear_scene();
   scene.output.measures = {"profile", "gaps", "indeterminacy", "voronoi", "forces", "moduli"};
+  scene.run.duration = 80;
+  scene.run.samples = 200;
   Simulation<2> simulation(scene, GetParam());
   const RunResult result = simulation.run();
   const test::TemporaryFolder folder;
@@ -106,7 +108,7 @@ TEST_P(OutputOfEngines, WriteWhatWasAskedFor) {
   EXPECT_EQ(profile.rows(), 20);
   double sigma = 0;
   for (int k = 0; k < 20; ++k) sigma += profile.at(k, *profile.find("sigma_yy")) / 20;
-  EXPECT_NEAR(sigma, 1, 0.3);  // the pressure, in a short run of few grains
+  EXPECT_NEAR(sigma, 1, 0.2);  // the pressure: 100 looks at impacts of few grains, each off by about its own size
   EXPECT_TRUE(profile.find("I") && profile.find("shear_rate") && profile.find("T"));
   EXPECT_EQ(read_csv(folder.file(engine + "_gaps.csv")).rows(), gap_intervals + 1);
   EXPECT_EQ(read_csv(folder.file(engine + "_voronoi.csv")).rows(), 60);
