@@ -37,7 +37,7 @@ Scene shear_scene(double factor) {
   scene.material.friction = 0.4;
   scene.material.restitution = 0.1;
   scene.material.stiffness_level = 1e3;
-  scene.initial.solid_fraction = 0.7;
+  scene.initial.solid_fraction = 0.5;
   scene.initial.speed = 0.1;
   scene.cell.periodic.assign(2, true);
   scene.cell.inertia_factor = factor;
