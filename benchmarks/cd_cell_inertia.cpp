@@ -113,8 +113,8 @@ int main(int argc, char** argv) {
         series.y.push_back(value.value / mean), series.y_error.push_back(value.error / mean);
       figure.series.push_back(series);
     };
-    add("{/Symbol m}*", mu);
-    add("{/Symbol F}", fraction);
+    add("mu*", mu);
+    add("Phi", fraction);
   }
   write_figure(stem, figure);
 }
