@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/core/error.hpp"
+#include "common/measure/balance.hpp"
 #include "common/measure/coordination.hpp"
-#include "common/measure/unbalanced_force.hpp"
 
 namespace galet {
 
@@ -55,7 +55,7 @@ bool EquilibriumTest<D>::reached(const Measurement& sample, const Snapshot<D>& s
 
 template <int D>
 double EquilibriumTest<D>::unbalanced(const Snapshot<D>& snapshot) const {
-  return unbalanced_force_ratio<D>(snapshot, gravity_, rattlers(snapshot, friction_));
+  return unbalance<D>(snapshot, rattlers(snapshot, friction_), gravity_).force;
 }
 
 template <int D>

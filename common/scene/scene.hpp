@@ -222,7 +222,7 @@ struct EndSpec {
   std::optional<double> strain;       ///< strain simulated, of the rate that the loading imposes; instead of duration
   std::optional<double> equilibrium;  ///< stop once, for one inertial time, held stresses are within stress_tolerance
                                       ///< and the kinetic energy per grain (rattlers apart) is below this times P d^D
-  std::optional<double> unbalanced;   ///< the same with the unbalanced force ratio (unbalanced_force.hpp) below this
+  std::optional<double> unbalanced;   ///< the same with the unbalanced force ratio (measure/balance.hpp) below this
   std::optional<double> stress_tolerance;  ///< of these two: relative error of each held stress; default 0.01
   std::string until;                       ///< stop once this component has reached ...
   std::optional<double> until_stress;      ///< ... this stress (mean over one inertial time), or
