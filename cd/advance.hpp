@@ -1,9 +1,9 @@
 // Positions at the end of a step, and their correction for drift.
 //
 //   x += dt (v + L x),  box += dt L box,  planes += dt v            with v = theta v+ + (1 - theta) v-
-//   rigid bodies: c += dt v; the orientation turns by dt w, or freely with J (geometry/rigid_body.hpp), J = theta J+ +
-//   (1 - theta) J- where J- and J+ belong to the orientation at the start of the step. Gyroscopic terms are all in that
-//   motion: J is kept, and w at the step's end is I^-1 J there.
+//   rigid bodies: c += dt (v + L c); the orientation turns by dt w, or freely with J (geometry/rigid_body.hpp), J =
+//   theta J+ + (1 - theta) J- where J- and J+ belong to the orientation at the start of the step. Gyroscopic terms are
+//   all in that motion: J is kept, and w at the step's end is I^-1 J there.
 //
 // A branch vector moves by exactly dt (v_j - v_i + L b), and the distance of two points is a convex function of it, so
 // that a gap ends at or above g + dt u_N: penetration comes from the solver's tolerance, from restitution of separating
@@ -44,7 +44,8 @@ void advance_positions(Bodies<Y>& bodies, const Iterate<Y>& motion, double dt) {
     RigidBody<D>& body = bodies.rigid.body[b];
     Spin<D> spin = zero_spin<D>();
     if constexpr (Y.friction) spin = motion.spin[before + b];
-    drift(body, velocity[before + b], spin, angular_momentum<D>(body, spin), dt);
+    const Vec<D> affine = still ? Vec<D>(Vec<D>::Zero()) : Vec<D>(gradient * body.centre);
+    drift(body, Vec<D>(velocity[before + b] + affine), spin, angular_momentum<D>(body, spin), dt);
   }
   if (!bodies.rigid.none()) bodies.follow();
 }

@@ -47,7 +47,9 @@ template <Layout Y>
 Vec<Y.dim> velocity_of(const Bodies<Y>& bodies, const Iterate<Y>& iterate, int index) {
   const int body = body_of(bodies, index);
   if constexpr (Y.friction)
-    if (body != index) return iterate.velocity[body] + cross(iterate.spin[body], bodies.arm[index]);
+    if (body != index)
+      return iterate.velocity[body] + cross(iterate.spin[body], bodies.arm[index]) -
+             iterate.gradient * bodies.arm[index];
   return iterate.velocity[body];
 }
 
@@ -257,6 +259,8 @@ class Assembly {
     if constexpr (Y.friction) {
       TurningContact<D>& bent = problem.bent[k - problem.first_turning];
       bent = {};
+      bent.branch = frame.branch + bodies.arm[grains[0]];
+      if (grains[1] < bodies.grains()) bent.branch -= bodies.arm[grains[1]];
       Mat<D> directions;
       directions.col(0) = frame.normal;
       directions.template rightCols<D - 1>() = across<D>(frame.normal);
@@ -282,6 +286,10 @@ class Assembly {
             else if (problem.spun(body))
               bent.w(a, b) += dot(moment_a, Spin<D>(problem.turning[body - problem.grains] * moment_b));
           }
+      }
+      for (const HubMode<D>& mode : problem.hub) {
+        const Vec<D> answer = directions.transpose() * (mode.direction * bent.branch);
+        bent.w += mode.inverse_inertia * answer * answer.transpose();
       }
       const double w_n = bent.w(0, 0), w_t = (bent.w.trace() - w_n) / (D - 1);
       // A normal through a fixed axis: what is left is rounding of the lever.

@@ -87,8 +87,10 @@ struct HubMode {
 };
 
 /// A contact of a body that turns. W: the block of the Delassus operator in the frame (n, t1, t2) of across().
+/// branch: from the centre of body i to that of body j.
 template <int D>
 struct TurningContact {
+  Vec<D> branch = Vec<D>::Zero();
   Vec<D> lever_i = Vec<D>::Zero(), lever_j = Vec<D>::Zero();
   Eigen::Matrix<double, D, D, Eigen::RowMajor> w = Eigen::Matrix<double, D, D, Eigen::RowMajor>::Zero();
 };
@@ -179,6 +181,15 @@ struct Iterate {
 // Functions of a contact below have a parameter MayTurn: false where the caller knows that the contact is none of a
 // body that turns, as in the sweeps of the solver, whose speed it decides.
 
+/// b of contact k: what the cell moves apart, from centre to centre of the two bodies.
+template <Layout Y, bool MayTurn = true>
+inline Vec<Y.dim> branch_of(const Problem<Y>& problem, std::size_t k) {
+  if constexpr (Y.friction && MayTurn)
+    if (problem.turns(k)) [[unlikely]]
+      return problem.bent[k - problem.first_turning].branch;
+  return problem.distance[k] * problem.normal[k];
+}
+
 /// Relative velocity u of contact k, spin terms included, for the velocity gradient L of the cell.
 template <Layout Y, bool MayTurn = true>
 inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>& iterate, const Mat<Y.dim>& gradient,
@@ -186,13 +197,14 @@ inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>&
   constexpr int D = Y.dim;
   const int i = problem.i[k], j = problem.j[k];
   const Vec<D>& n = problem.normal[k];
-  Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (gradient * n);
   if constexpr (Y.friction && MayTurn) {
     if (problem.turns(k)) [[unlikely]] {
       const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
-      return u + cross(iterate.spin[j], bent.lever_j) - cross(iterate.spin[i], bent.lever_i);
+      return iterate.velocity[j] - iterate.velocity[i] + gradient * bent.branch + cross(iterate.spin[j], bent.lever_j) -
+             cross(iterate.spin[i], bent.lever_i);
     }
   }
+  Vec<D> u = iterate.velocity[j] - iterate.velocity[i] + problem.distance[k] * (gradient * n);
   if constexpr (Y.friction) {
     const Spin<D> rolling = problem.arm_i[k] * iterate.spin[i] + problem.arm_j[k] * iterate.spin[j];
     u -= cross(rolling, n);
@@ -383,7 +395,7 @@ inline void add_reaction(const Problem<Y>& problem, Iterate<Y>& iterate, std::si
   const Vec<Y.dim> p = impulse_vector<Y>(problem.normal[k], reaction);
   add_impulse<Y, MayTurn>(problem, iterate, k, p);
   if constexpr (Y.rolling) add_torque(problem, iterate, k, torque_impulse<Y>(reaction));
-  virial += p * (problem.distance[k] * problem.normal[k]).transpose();
+  virial += p * branch_of<Y, MayTurn>(problem, k).transpose();
 }
 
 /// Adds the hub's answer to the impulses whose sum of p (x) b is `virial`.

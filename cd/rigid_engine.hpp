@@ -234,6 +234,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     predict_rigid(dt);
     start_.gradient = bodies_.cell.rate;
     predict_hub(dt);
+    show_members(free_);
     double spread = 0;
     for (const Vec<D>& v : free_.velocity) spread = std::max(spread, (v - mean).squaredNorm());
     spread_ = std::sqrt(spread);
@@ -246,7 +247,8 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       const RigidBody<D>& body = bodies_.rigid.body[b];
       start_.velocity[before + b] = body.velocity;
       free_.velocity[before + b] =
-          body.velocity + dt * body.mobility.cwiseProduct(body.force + body.mass * bodies_.gravity);
+          body.velocity + dt * (body.mobility.cwiseProduct(body.force + body.mass * bodies_.gravity) -
+                                bodies_.cell.rate * body.velocity);
       if constexpr (Y.friction) {
         const SpinMap<D> mobility = turning_mobility(body);
         if (bodies_.rigid.any_turning) problem_.turning[before + b - bodies_.position.size()] = mobility;
@@ -254,7 +256,6 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
         free_.spin[before + b] = body.spin + dt * (mobility * body.torque);
       }
     }
-    show_members(free_);
   }
 
   /// Velocities of the grains of rigid bodies, which no contact refers to.
@@ -267,8 +268,9 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     free_.gradient = bodies_.cell.rate;
     if (!bodies_.stress_driven()) return;
     Mat<D> kinetic = Mat<D>::Zero();
-    for (std::size_t b = 0; b < bodies_.position.size(); ++b)
-      kinetic += bodies_.mass[b] * bodies_.velocity[b] * bodies_.velocity[b].transpose();
+    for (int b = 0; b < bodies_.grains(); ++b)
+      if (bodies_.rigid.free(b)) kinetic += bodies_.mass[b] * bodies_.velocity[b] * bodies_.velocity[b].transpose();
+    kinetic += bodies_.rigid_kinetic_virial();
     const double volume = bodies_.cell.volume();
     for (const CellMode<D>& mode : bodies_.modes) {
       if (!mode.stress_driven) continue;
@@ -348,7 +350,12 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       const Vec<D> p = -impulse * frame.normal;
       attract(iterate, i, Vec<D>(-p));
       attract(iterate, j, p);
-      virial += p * frame.branch.transpose();
+      Vec<D> branch = frame.branch;
+      if (!bodies_.rigid.none()) {
+        branch += bodies_.arm[i];
+        if (j < bodies_.grains()) branch -= bodies_.arm[j];
+      }
+      virial += p * branch.transpose();
     }
   }
 
@@ -399,11 +406,11 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     }
     for (std::size_t p = 0; p < bodies_.planes.size(); ++p)
       if (bodies_.planes[p].inverse_mass > 0) bodies_.planes[p].velocity = iterate_.velocity[grains + p];
-    accept_rigid();
     std::size_t m = 0;
     for (CellMode<D>& mode : bodies_.modes)
       if (mode.stress_driven) mode.rate = iterate_.hub_rate[m++];
     if (!bodies_.modes.empty()) bodies_.cell.rate = velocity_gradient(bodies_.modes);
+    accept_rigid();
   }
 
   void accept_rigid() {

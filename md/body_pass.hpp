@@ -1,9 +1,13 @@
 // Rigid bodies in the md step, with the scheme of the grains (md/grain_pass.hpp): kick, drift, kick.
 //
-//   drift   V_half = V + dt/2 a,  c' = c + dt V_half;  J_half = J + dt/2 T, then a free rotation for dt with J_half
+//   drift   V_half = V + dt/2 a,  c' = F c + dt A V_half (F and A: the cell's, md/grain_pass.hpp);  J_half = J + dt/2
+//   T, then a free rotation for dt with J_half
 //           (geometry/rigid_body.hpp; a body with one axis: w_half = w + dt/2 dw/dt in place of J);
-//           contacts see the grains at c' + arm, with V and w predicted as for grains
-//   gather  F = sum of the contact forces on the body's grains, T = sum of arm x F - R twist + torque; kick
+//           contacts see the grains at c' + arm with v = V + w x arm - L arm, V and w predicted as for grains
+//   gather  F = sum of the contact forces on the body's grains, T = sum of arm x F - R twist + torque; kick with
+//           a = F / M + gravity - L V
+//
+// The stress of the cell is made of branches from centre to centre of bodies: b - arm_j + arm_i.
 //
 // F and T are summed over the grains in ascending order and over each grain's rows in the order of the list. Kicks
 // change momentum and angular momentum by what the contacts give, and drifts change neither: both are conserved to
@@ -31,17 +35,22 @@ class BodyPass {
  public:
   static constexpr int D = Y.dim;
 
-  void start(const Bodies<Y>& bodies) { motion_.assign(bodies.rigid.body.size(), {}); }
+  void start(const Bodies<Y>& bodies) {
+    motion_.assign(bodies.rigid.body.size(), {});
+    for (std::size_t b = 0; b < motion_.size(); ++b) motion_[b].predicted = bodies.rigid.body[b].velocity;
+  }
   std::size_t bytes() const { return bytes_of(motion_); }
 
-  /// First half of the step. Returns the largest distance that a grain of a body has moved, over dt.
+  /// First half of the step, once the cell has moved and `seen` has its predicted rate. Returns the largest distance
+  /// that a grain of a body has moved against the cell, over dt.
   double drift(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, double dt) {
     const std::size_t count = bodies.rigid.body.size();
     const Mat<D> inverse = bodies.cell.box.inverse();
+    const CellStep<D> cell(bodies.cell.rate, dt);
     refill(partial_, chunk_count(count), 0.0);
     parallel_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b)
-        partial_[chunk] = std::max(partial_[chunk], drift_body(bodies, states, seen, inverse, b, dt));
+        partial_[chunk] = std::max(partial_[chunk], drift_body(bodies, states, seen, cell, inverse, b, dt));
     });
     double farthest = 0;
     for (const double part : partial_) farthest = std::max(farthest, part);
@@ -49,12 +58,12 @@ class BodyPass {
   }
 
   /// Accelerations from the contact rows, and the second half of the kick (`kick` = dt/2; 0 at the very start).
-  void gather(Bodies<Y>& bodies, GrainStates<Y>& states, const VerletList<D>& list, const Contacts<Y>& contacts,
-              double kick) {
+  void gather(Bodies<Y>& bodies, GrainStates<Y>& states, const Seen<Y>& seen, const VerletList<D>& list,
+              const Contacts<Y>& contacts, double kick) {
     parallel_ranges(
         bodies.rigid.body.size(),
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t b = begin; b < end; ++b) gather_body(bodies, states, list, contacts, b, kick);
+          for (std::size_t b = begin; b < end; ++b) gather_body(bodies, states, seen, list, contacts, b, kick);
         },
         64);
   }
@@ -64,10 +73,26 @@ class BodyPass {
     for (Motion& motion : motion_) motion.expected = motion.acceleration, motion.turning_expected = motion.turning;
   }
 
+  /// Accelerations jump with gravity and the rate of the cell, between steps: they are expected to stay.
+  void shift(const Bodies<Y>& bodies, const Mat<D>& rate_change, const Vec<D>& gravity_change) {
+    for (std::size_t b = 0; b < motion_.size(); ++b) {
+      const RigidBody<D>& body = bodies.rigid.body[b];
+      const Vec<D> jump = body.mass * body.mobility.cwiseProduct(gravity_change) - rate_change * body.velocity;
+      motion_[b].acceleration += jump, motion_[b].expected += jump;
+    }
+  }
+
   /// Sum of the contact forces on all bodies.
   Vec<D> contact_force() const {
     Vec<D> sum = Vec<D>::Zero();
     for (const Motion& motion : motion_) sum += motion.force;
+    return sum;
+  }
+
+  /// What the arms of the bodies' grains take from the sum of F (x) b over the contacts.
+  Mat<D> arm_virial() const {
+    Mat<D> sum = Mat<D>::Zero();
+    for (const Motion& motion : motion_) sum += motion.arm_virial;
     return sum;
   }
 
@@ -77,8 +102,9 @@ class BodyPass {
     for (std::size_t b = 0; b < motion_.size(); ++b) {
       const RigidBody<D>& body = bodies.rigid.body[b];
       const Motion& motion = motion_[b];
-      // What acts besides contacts and gravity is M a - F - M g and dJ/dt - T.
-      power += (body.mass * (motion.acceleration - bodies.gravity) - motion.force).dot(body.velocity);
+      // What acts besides contacts and gravity is M (a + L V) - F - M g and dJ/dt - T.
+      const Vec<D> acceleration = motion.acceleration + bodies.cell.rate * body.velocity - bodies.gravity;
+      power += (body.mass * acceleration - motion.force).dot(body.velocity);
       power += dot(body.spin, body.turning == Turning::imposed ? Spin<D>(-motion.torque) : body.torque);
     }
     return power;
@@ -91,16 +117,18 @@ class BodyPass {
       append(column, motion.acceleration), append(column, motion.expected);
       append(column, motion.turning), append(column, motion.turning_expected);
       append(column, motion.force), append(column, motion.torque);
+      column.insert(column.end(), motion.arm_virial.data(), motion.arm_virial.data() + D * D);
     }
   }
   void restore(const Archive& archive) {
-    std::vector<double> column((3 * components<Vec<D>> + 3 * components<Spin<D>>)*motion_.size());
+    std::vector<double> column((3 * components<Vec<D>> + 3 * components<Spin<D>> + D * D) * motion_.size());
     take_column(archive, "md.bodies", column);
     const double* from = column.data();
     for (Motion& motion : motion_) {
       from = extract(from, motion.acceleration), from = extract(from, motion.expected);
       from = extract(from, motion.turning), from = extract(from, motion.turning_expected);
       from = extract(from, motion.force), from = extract(from, motion.torque);
+      motion.arm_virial = Eigen::Map<const Mat<D>>(from), from += D * D;
     }
   }
 
@@ -111,49 +139,53 @@ class BodyPass {
     Spin<D> turning = zero_spin<D>(), turning_expected = zero_spin<D>();
     Vec<D> force = Vec<D>::Zero();  ///< of the contacts
     Spin<D> torque = zero_spin<D>();
+    Mat<D> arm_virial = Mat<D>::Zero();  ///< sum over the grains of F (x) arm
+    Vec<D> predicted = Vec<D>::Zero();   ///< V that the contacts of the step see
   };
 
-  double drift_body(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, const Mat<D>& inverse, std::size_t b,
-                    double dt) {
+  double drift_body(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, const CellStep<D>& cell,
+                    const Mat<D>& inverse, std::size_t b, double dt) {
     RigidBody<D>& body = bodies.rigid.body[b];
-    const Motion& motion = motion_[b];
-    const Vec<D> before = body.centre;
+    Motion& motion = motion_[b];
+    const Vec<D> carried = cell.deform * body.centre;
     body.velocity += 0.5 * dt * motion.acceleration;
     change_turning(body, Spin<D>(0.5 * dt * motion.turning));
-    galet::drift(body, body.velocity, body.spin, body.momentum, dt);
-    const Vec<D> moved = body.centre - before;
+    body.centre = carried;
+    galet::drift(body, Vec<D>(cell.advance * body.velocity), body.spin, body.momentum, dt);
+    const Vec<D> moved = body.centre - carried;
     if (bodies.cell.any_periodic()) body.centre = wrapped_position<D>(bodies.cell, inverse, body.centre);
     RigidBody<D> expected = body;
     expected.velocity += 0.5 * dt * motion.expected;
     change_turning(expected, Spin<D>(0.5 * dt * motion.turning_expected));
+    motion.predicted = expected.velocity;
     const Mat<D> rotation = rotation_of(body);
     double farthest = 0;
     for (int k = bodies.rigid.first[b]; k < bodies.rigid.first[b + 1]; ++k) {
       const int i = bodies.rigid.member[k];
       const Vec<D> arm = rotation * bodies.rigid.offset[i];
-      farthest = std::max(farthest, (moved + arm - bodies.arm[i]).squaredNorm());
+      farthest = std::max(farthest, (moved + arm - cell.deform * bodies.arm[i]).squaredNorm());
       bodies.arm[i] = arm;
       seen.grains.put_position(i,
                                image_near<D>(bodies.cell, inverse, Vec<D>(body.centre + arm), seen.grains.position(i)));
-      seen.grains.put_velocity(i, expected.velocity + cross(expected.spin, arm));
+      seen.grains.put_velocity(i, expected.velocity + cross(expected.spin, arm) - seen.gradient * arm);
       if constexpr (Y.friction) seen.grains.put_spin(i, expected.spin, bodies.radius[i]);
       states.hold(i);
     }
     return std::sqrt(farthest);
   }
 
-  void gather_body(Bodies<Y>& bodies, GrainStates<Y>& states, const VerletList<D>& list, const Contacts<Y>& contacts,
-                   std::size_t b, double kick) {
+  void gather_body(Bodies<Y>& bodies, GrainStates<Y>& states, const Seen<Y>& seen, const VerletList<D>& list,
+                   const Contacts<Y>& contacts, std::size_t b, double kick) {
     RigidBody<D>& body = bodies.rigid.body[b];
     Motion& motion = motion_[b];
-    motion.force.setZero(), motion.torque = zero_spin<D>();
+    motion.force.setZero(), motion.torque = zero_spin<D>(), motion.arm_virial.setZero();
     for (int k = bodies.rigid.first[b]; k < bodies.rigid.first[b + 1]; ++k) {
       const int i = bodies.rigid.member[k];
       add_rows(bodies, list, contacts, i, motion);
       states.hold(i);
     }
     const Vec<D> force = motion.force + body.force + body.mass * bodies.gravity;
-    const Vec<D> acceleration = body.mobility.cwiseProduct(force);
+    const Vec<D> acceleration = body.mobility.cwiseProduct(force) - seen.gradient * motion.predicted;
     const Spin<D> turning = turning_rate(body, Spin<D>(motion.torque + body.torque));
     motion.expected = acceleration + extrapolation * (acceleration - motion.acceleration);
     motion.turning_expected = turning + extrapolation * (turning - motion.turning);
@@ -175,6 +207,7 @@ class BodyPass {
     for (int k = list.second()[i]; k < list.second()[i + 1]; ++k) add(list.rows_of_second()[k], 1);
     for (int row = list.first()[i]; row < list.first()[i + 1]; ++row) add(row, -1);
     motion.force += force;
+    motion.arm_virial += force * bodies.arm[i].transpose();
     motion.torque += cross(bodies.arm[i], force) - bodies.radius[i] * twist + torque;
   }
 

@@ -26,6 +26,17 @@
 
 namespace galet::md {
 
+/// A and F of a step in which the cell moves with L.
+template <int D>
+struct CellStep {
+  Mat<D> advance, deform;
+  CellStep(const Mat<D>& gradient, double dt) {
+    const Mat<D> identity = Mat<D>::Identity();
+    advance = (identity - 0.5 * dt * gradient).inverse();
+    deform = advance * (identity + 0.5 * dt * gradient);
+  }
+};
+
 /// The acceleration expected for the step to come; keeps the present one as `before`.
 inline double expected(double now, double& before) {
   const double change = now - before;
@@ -113,13 +124,11 @@ class GrainPass {
 
   /// Returns the map that moves the box.
   static Mat<D> set_drift(GrainView& view, const Mat<D>& gradient, double dt) {
-    const Mat<D> identity = Mat<D>::Identity();
-    const Mat<D> advance = (identity - 0.5 * dt * gradient).inverse();
-    const Mat<D> deform = advance * (identity + 0.5 * dt * gradient);
-    fill(view.deform, deform), fill(view.step, dt * advance);
+    const CellStep<D> step(gradient, dt);
+    fill(view.deform, step.deform), fill(view.step, dt * step.advance);
     view.half = 0.5 * dt;
     view.deforming = !gradient.isZero(0);
-    return deform;
+    return step.deform;
   }
 
   static void move_boundaries(Bodies<Y>& bodies, const Mat<D>& deform, double dt) {
@@ -189,11 +198,12 @@ double relax(const Bodies<Y>& bodies, GrainStates<Y>& states, const Seen<Y>& see
   return total;
 }
 
-/// Sum over the grains of m v (x) v, after relaxers have changed velocities.
+/// Sum over the grains, and the rigid bodies, of m v (x) v.
 template <Layout Y>
 Mat<Y.dim> kinetic_virial(const Bodies<Y>& bodies, const GrainStates<Y>& states) {
-  Mat<Y.dim> sum = Mat<Y.dim>::Zero();
+  Mat<Y.dim> sum = bodies.rigid_kinetic_virial();
   for (int i = 0; i < bodies.grains(); ++i) {
+    if (!bodies.rigid.free(i)) continue;
     const Vec<Y.dim> velocity = states.velocity(i);
     sum += bodies.mass[i] * velocity * velocity.transpose();
   }

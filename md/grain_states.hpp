@@ -104,7 +104,8 @@ class GrainStates {
   void set_constants(int i, const Bodies<Y>& bodies) {
     double* state = at(i, 0);
     const bool free = bodies.rigid.free(i);
-    state[S::inverse_mass] = free ? 1 / bodies.mass[i] : 0, *at(i, S::mass) = bodies.mass[i];
+    // Only the sum of m v (x) v reads the mass.
+    state[S::inverse_mass] = free ? 1 / bodies.mass[i] : 0, *at(i, S::mass) = free ? bodies.mass[i] : 0;
     if constexpr (D == 2) state[S::factors] = state[S::factors + 1] = state[S::inverse_mass];
     if constexpr (Y.friction) {
       const double radius = bodies.radius[i], inverse = free ? 1 / bodies.inertia[i] : 0;

@@ -109,6 +109,7 @@ class SoftEngine final : public Engine<Y.dim> {
     for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
     for (int i = 0; i < bodies_.grains(); ++i)
       states_.shift(i, (rate - bodies_.cell.rate) * states_.velocity(i) + bodies_.gravity - gravity);
+    body_pass_.shift(bodies_, Mat<D>(bodies_.cell.rate - rate), Vec<D>(bodies_.gravity - gravity));
     mode_acceleration_.assign(bodies_.modes.size(), 0.0);
     accelerate_modes(virial, 0);
     mode_before_ = mode_acceleration_;
@@ -181,8 +182,8 @@ class SoftEngine final : public Engine<Y.dim> {
     StageTimer timer(profile_, Stage::grains);
     kick_modes();
     const double fastest = grain_pass_.drift(bodies_, states_, seen_, dt_);
-    list_bound_.moved(std::max(fastest, drift_rigid()), bodies_.cell.rate, dt_);
     predict_modes();
+    list_bound_.moved(std::max(fastest, drift_rigid()), bodies_.cell.rate, dt_);
   }
 
   void refresh_neighbours() {
@@ -214,7 +215,7 @@ class SoftEngine final : public Engine<Y.dim> {
 
   double drift_rigid() { return bodies_.rigid.none() ? 0 : body_pass_.drift(bodies_, states_, seen_, dt_); }
   void gather_rigid(double kick) {
-    if (!bodies_.rigid.none()) body_pass_.gather(bodies_, states_, list_, contacts_, kick);
+    if (!bodies_.rigid.none()) body_pass_.gather(bodies_, states_, seen_, list_, contacts_, kick);
   }
 
   PassSums<D> evaluate_contacts(double dt, bool virial_wanted) {
@@ -235,6 +236,7 @@ class SoftEngine final : public Engine<Y.dim> {
       StageTimer timer(profile_, Stage::grains);
       kinetic = grain_pass_.gather(bodies_, states_, seen_, list_, contacts_, 0.5 * dt, virial_wanted);
       gather_rigid(0.5 * dt);
+      kinetic += bodies_.rigid_kinetic_virial();
       GALET_ENSURE(forces_balance(), "contact forces add up to zero over the grains and planes");
       if (relaxers_.on()) {
         relaxed = relax(bodies_, states_, seen_, relaxers_, 0.5 * dt, partial_power_);
@@ -242,7 +244,8 @@ class SoftEngine final : public Engine<Y.dim> {
       }
     }
     StageTimer timer(profile_, Stage::drives);
-    const Mat<D> virial = sums.virial + kinetic;
+    Mat<D> virial = sums.virial + kinetic;
+    if (!bodies_.rigid.none()) virial -= body_pass_.arm_virial();
     bodies_.advance_loads(dt);
     if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
     if (!account_) return;
@@ -319,13 +322,13 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.cell.rate = velocity_gradient(bodies_.modes);
   }
 
-  /// Sum over the contacts of F (x) b, by the forces of the last evaluation.
+  /// Sum over the contacts of F (x) b, between centres of bodies, by the forces of the last evaluation.
   Mat<D> contact_virial() const {
     Mat<D> sum = Mat<D>::Zero();
     for (std::size_t row = 0; row < list_.size(); ++row)
       if (contacts_.acts(row) && list_.pairs().j[row] < bodies_.grains())
         sum += contacts_.force(row) * frame_of(row).branch.transpose();
-    return sum;
+    return sum - body_pass_.arm_virial();
   }
 
   void update_neighbours() {

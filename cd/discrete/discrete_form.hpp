@@ -206,7 +206,7 @@ class DiscreteForm {
   /// Motion of a contact in a cell of this velocity gradient.
   Values motion_of(std::size_t contact, const Mat<D>& gradient) const {
     const std::size_t k = kept_[contact];
-    const Vec<D> u = problem_.distance[k] * (gradient * problem_.normal[k]);
+    const Vec<D> u = gradient * branch_of(problem_, k);
     Values values = Values::Zero();
     values[0] = problem_.normal[k].dot(u);
     values.template segment<D - 1>(1) = tangents_[contact].transpose() * u;

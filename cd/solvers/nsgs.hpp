@@ -65,7 +65,7 @@ class Nsgs {
     if (strongest == 0) return problem.size();
     double least = 1e300;
     for (std::size_t k = 0; k < problem.size(); ++k)
-      if (problem.wn[k] > 0) least = std::min(least, problem.wn[k] / (problem.distance[k] * problem.distance[k]));
+      if (problem.wn[k] > 0) least = std::min(least, problem.wn[k] / branch_of(problem, k).squaredNorm());
     return static_cast<std::size_t>(std::clamp(0.2 * least / strongest, 1.0, static_cast<double>(problem.size())));
   }
 

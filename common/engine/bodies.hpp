@@ -64,11 +64,11 @@ struct Bodies {
     modes = cell_modes<D>(scene, derived, sample);
     rigid = rigid_bodies<D>(scene, sample);
     if (!rigid.none()) {
-      if (!modes.empty()) throw InputError("rigid bodies need a cell that does not move: loading.kind = \"none\"");
+      check_free();
       arm.assign(position.size(), Vec<D>::Zero());
-      follow();
     }
     if (!modes.empty()) cell.rate = velocity_gradient(modes);
+    if (!rigid.none()) follow();
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
   }
 
@@ -81,6 +81,7 @@ struct Bodies {
     for (CellMode<D>& mode : modes)
       if (mode.stress_driven) mode.rate = rate.cwiseProduct(mode.direction).sum() / mode.direction.squaredNorm();
     cell.rate = velocity_gradient(modes);
+    check_free();
     gravity.setZero();
     for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
   }
@@ -99,7 +100,7 @@ struct Bodies {
       for (int k = rigid.first[b]; k < rigid.first[b + 1]; ++k) {
         const int i = rigid.member[k];
         arm[i] = rotation * rigid.offset[i];
-        velocity[i] = body.velocity + cross(body.spin, arm[i]);
+        velocity[i] = body.velocity + cross(body.spin, arm[i]) - cell.rate * arm[i];
         if constexpr (Y.friction) spin[i] = body.spin;
       }
     }
@@ -150,6 +151,13 @@ struct Bodies {
     return parts;
   }
 
+  /// Sum of M V (x) V over the rigid bodies.
+  Mat<D> rigid_kinetic_virial() const {
+    Mat<D> sum = Mat<D>::Zero();
+    for (const RigidBody<D>& body : rigid.body) sum += body.mass * body.velocity * body.velocity.transpose();
+    return sum;
+  }
+
   /// The fields of a snapshot that do not depend on the engine.
   Snapshot<D> view() const {
     Snapshot<D> shown;
@@ -161,6 +169,8 @@ struct Bodies {
     shown.radius = radius;
     shown.mass = mass;
     shown.bodies = rigid.body;
+    shown.body_of = rigid.of;
+    shown.arm = arm;
     return shown;
   }
 
@@ -221,6 +231,14 @@ struct Bodies {
   }
 
  private:
+  /// A cell that moves carries only bodies that move as grains do.
+  void check_free() const {
+    if (modes.empty()) return;
+    for (const RigidBody<D>& body : rigid.body)
+      if (!body.is_free())
+        throw InputError("in a cell that moves rigid bodies must be free to move and turn in every way");
+  }
+
   void save_rigid(Archive& archive) const {
     std::vector<double>& column = archive.reals["bodies.state"];
     column.clear();

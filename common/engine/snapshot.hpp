@@ -49,9 +49,15 @@ struct Snapshot {
   std::span<const double> radius;
   std::span<const double> mass;
   std::span<const RigidBody<D>> bodies;  ///< rigid bodies, in the order of the scene
+  std::span<const int> body_of;          ///< each grain's rigid body, or -1; empty without bodies
+  std::span<const Vec<D>> arm;           ///< of each grain from its body's centre; empty without bodies
   const ContactColumns<D>* contacts = nullptr;
 
   int grains() const { return static_cast<int>(position.size()); }
+  /// Whether a grain is part of a rigid body that moves as grains do.
+  bool in_free_body(int grain) const {
+    return grain < static_cast<int>(body_of.size()) && body_of[grain] >= 0 && bodies[body_of[grain]].is_free();
+  }
 };
 
 }  // namespace galet

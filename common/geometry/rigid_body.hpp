@@ -5,6 +5,10 @@
 //   (e.I e) dw/dt = e.T,  w along e             about a fixed axis e (disks: the only one there is)
 //   w given                                     imposed rotation
 //
+// In a cell that moves with the velocity gradient L, V is the fluctuation about L c, as for grains, and dV/dt = F / M -
+// L V; the body itself does not deform: a grain at c + r has the fluctuation V + w x r - L r. Only bodies that are free
+// in every way are allowed there. What such a body gives to the stress is F (x) b with b between centres of bodies.
+//
 // The orientation q takes vectors of the body's frame to the fixed one; in 3D the body's frame is that of its principal
 // axes, so that I is the three moments. A grain of the body is at c + q(offset), moves with V + w x q(offset) and turns
 // with w.
@@ -90,6 +94,9 @@ struct RigidBody {
   Vec<D> force = Vec<D>::Zero();      ///< external, along free directions
   Spin<D> torque = zero_spin<D>();    ///< external, likewise
   bool turns = false;                 ///< whether it ever turns (freely, or with an imposed spin)
+
+  /// Whether forces and torques move it in every way, as they do a grain.
+  bool is_free() const { return turning == Turning::free && (mobility.array() > 0).all(); }
 
   /// Whether J and not w is what torques change.
   bool has_momentum() const { return D == 3 && turning == Turning::free; }

@@ -7,9 +7,17 @@ template <int D>
 StressParts<D> stress(const Snapshot<D>& snapshot) {
   StressParts<D> parts;
   const ContactColumns<D>& contacts = *snapshot.contacts;
-  for (std::size_t c = 0; c < contacts.size(); ++c) parts.contact += contacts.force[c] * contacts.branch[c].transpose();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    Vec<D> branch = contacts.branch[c];
+    if (snapshot.in_free_body(contacts.i[c])) branch += snapshot.arm[contacts.i[c]];
+    if (snapshot.in_free_body(contacts.j[c])) branch -= snapshot.arm[contacts.j[c]];
+    parts.contact += contacts.force[c] * branch.transpose();
+  }
   for (int i = 0; i < snapshot.grains(); ++i)
-    parts.kinetic += snapshot.mass[i] * snapshot.velocity[i] * snapshot.velocity[i].transpose();
+    if (!snapshot.in_free_body(i))
+      parts.kinetic += snapshot.mass[i] * snapshot.velocity[i] * snapshot.velocity[i].transpose();
+  for (const RigidBody<D>& body : snapshot.bodies)
+    if (body.is_free()) parts.kinetic += body.mass * body.velocity * body.velocity.transpose();
   const double volume = snapshot.cell->volume();
   parts.contact /= volume;
   parts.kinetic /= volume;

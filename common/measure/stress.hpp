@@ -2,6 +2,7 @@
 //   sigma = (1/V) (sum over contacts of F (x) b + sum over grains of m v (x) v)
 // F force on j, b branch vector from i to j, v velocity fluctuation, V volume of the cell; positive in compression.
 // Source: Love-Weber average; chapter, eq. for sigma; physics notation in core/conventions.hpp.
+// A rigid body that is free in every way counts as one grain: b is between centres of bodies, v and m are the body's.
 // Contacts with planes count with the branch from the grain's centre to the contact point. Cost: one pass.
 #pragma once
 

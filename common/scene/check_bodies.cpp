@@ -17,6 +17,13 @@ bool any(const std::vector<bool>& values) { return std::find(values.begin(), val
 
 std::size_t axes(const Scene& scene) { return scene.dimension == 2 ? 1 : 3; }
 
+bool free_in_every_way(const Scene& scene, const BodySpec& body) {
+  const auto all = [](const std::vector<bool>& free, std::size_t wanted) {
+    return static_cast<std::size_t>(std::count(free.begin(), free.end(), true)) == wanted;
+  };
+  return all(body.free, static_cast<std::size_t>(scene.dimension)) && all(body.free_rotation, axes(scene));
+}
+
 /// A rotation has one component in 2D and three in 3D, or is absent.
 void check_rotation(Report& report, const std::string& path, std::size_t size) {
   const std::size_t wanted = axes(report.scene);
@@ -104,8 +111,14 @@ void check_body(Report& report, std::size_t k) {
 void check_company(Report& report) {
   const Scene& scene = report.scene;
   if (scene.bodies.empty()) return;
-  report.rule(scene.loading.kind == LoadingKind::none, "body",
-              "[[body]] entries need loading.kind = \"none\": bodies move the grains, not the cell", {"loading.kind"});
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    report.rule(
+        scene.loading.kind == LoadingKind::none || free_in_every_way(scene, scene.bodies[k]),
+        fmt::format("body[{}]", k),
+        fmt::format("body[{0}] is not free to move and turn in every way, as it must be in a cell that moves: give "
+                    "body[{0}].free and body[{0}].free_rotation all true, or loading.kind = \"none\"",
+                    k),
+        {"loading.kind"});
   for (const auto& [value, name] :
        {std::pair{scene.md.drag, "md.drag"}, std::pair{scene.md.acceleration_damping, "md.acceleration_damping"}})
     report.rule(value == 0, name, fmt::format("{} is refused with [[body]] entries: it acts on grains alone", name),

@@ -208,9 +208,13 @@ TEST(SceneBodies, EnginesRefuseWhatTheyCanNotMove) {
   Scene sheared = scene;
   sheared.loading.kind = LoadingKind::plane_shear;
   sheared.loading.shear_rate = 1;
-  for (const EngineKind kind : both_engines)
-    EXPECT_EQ(refusal(kind, sheared, sample),
-              "error: rigid bodies need a cell that does not move: loading.kind = \"none\"");
+  for (const EngineKind kind : both_engines) {
+    EXPECT_EQ(refusal(kind, sheared, sample), "");
+    Scene held = sheared;
+    held.bodies[0].free[1] = false;
+    EXPECT_EQ(refusal(kind, held, sample),
+              "error: in a cell that moves rigid bodies must be free to move and turn in every way");
+  }
   sample.planes = {{Vec<2>(0, -1), Vec<2>(0, 1)}};
   sample.planes[0].inverse_mass = 1;
   EXPECT_NE(refusal(EngineKind::md, scene, sample).find("planes with a mass need engine cd"), std::string::npos);
