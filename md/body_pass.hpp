@@ -5,9 +5,9 @@
 //           contacts see the grains at c' + arm, with V and w predicted as for grains
 //   gather  F = sum of the contact forces on the body's grains, T = sum of arm x F - R twist + torque; kick
 //
-// F and T are summed over the grains in ascending order and over each grain's rows in the order of the list. Kicks
-// change momentum and angular momentum by what the contacts give, and drifts change neither: both are conserved to
-// rounding, as for grains. Second order in dt. A body's grains take no part in the grains' own motion: the kernels
+// F and T are summed over the grains in the order of their numbers and over each grain's rows in the order of the list.
+// Kicks change momentum and angular momentum by what the contacts give, and drifts change neither: both are conserved
+// to rounding, as for grains. Second order in dt. A body's grains take no part in the grains' own motion: the kernels
 // find them without mobility, and what they leave there is put back to rest.
 // Cost: one visit of each grain of a body and its rows.
 #pragma once
