@@ -15,6 +15,7 @@
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
+#   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
@@ -38,6 +39,7 @@ for name in "${names[@]}"; do
       done ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     md_scaling) "$bin/benchmarks/md_scaling" --quick | tee "$out/md_scaling.csv" ;;
+    md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
     cd_compliance) "$bin/benchmarks/cd_compliance" | tee "$out/cd_compliance.csv" ;;

@@ -9,9 +9,9 @@
 //
 // The stress of the cell is made of branches from centre to centre of bodies: b - arm_j + arm_i.
 //
-// F and T are summed over the grains in ascending order and over each grain's rows in the order of the list. Kicks
-// change momentum and angular momentum by what the contacts give, and drifts change neither: both are conserved to
-// rounding, as for grains. Second order in dt. A body's grains take no part in the grains' own motion: the kernels
+// F and T are summed over the grains in the order of their numbers and over each grain's rows in the order of the list.
+// Kicks change momentum and angular momentum by what the contacts give, and drifts change neither: both are conserved
+// to rounding, as for grains. Second order in dt. A body's grains take no part in the grains' own motion: the kernels
 // find them without mobility, and what they leave there is put back to rest.
 // Cost: one visit of each grain of a body and its rows.
 #pragma once

@@ -6,6 +6,7 @@
 
 #include "common/core/layout.hpp"
 #include "common/core/memory_use.hpp"
+#include "common/core/permutation.hpp"
 #include "common/core/types.hpp"
 #include "md/contacts.hpp"
 
@@ -28,6 +29,9 @@ class GrainRecords {
     const std::size_t lines = (static_cast<std::size_t>(records) * record_size(Y) + 7) / 8;
     if (lines > lines_.size()) lines_.resize(lines + lines / 8, Line{});
   }
+
+  /// Another order of the grains; the records behind them stay.
+  void rearrange(const Permutation& step) { step.apply(data(), record_size(Y)); }
 
   std::size_t bytes() const { return bytes_of(lines_); }
   double* data() { return lines_.data()->value; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/core/memory_use.hpp"
+#include "common/core/permutation.hpp"
 #include "common/engine/bodies.hpp"
 #include "md/contacts.hpp"
 #include "md/kernel/view.hpp"
@@ -32,6 +33,12 @@ class GrainStates {
       set_constants(i, bodies);
     }
     for (const int i : bodies.rigid.member) hold(i);
+  }
+
+  /// Another order of the grains.
+  void rearrange(const Permutation& step) {
+    step.apply(data(), S::size);
+    step.apply(expected(), S::second_size);
   }
 
   /// Writes the velocities back.

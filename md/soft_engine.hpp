@@ -17,8 +17,10 @@
 #include "md/contact_pass.hpp"
 #include "md/contacts.hpp"
 #include "md/energy.hpp"
+#include "md/grain_order.hpp"
 #include "md/grain_pass.hpp"
 #include "md/move_bound.hpp"
+#include "md/shown.hpp"
 #include "md/skin.hpp"
 
 namespace galet::md {
@@ -49,6 +51,7 @@ class SoftEngine final : public Engine<Y.dim> {
     if (relaxers_.on() && !bodies_.rigid.none())
       throw InputError("md.drag and md.acceleration_damping are refused with rigid bodies: they act on grains alone");
     body_pass_.start(bodies_);
+    order_.start(bodies_.grains());
     seen_.gradient = bodies_.cell.rate;
     seen_.grains.resize(bodies_.grains());
     for (int i = 0; i < bodies_.grains(); ++i) {
@@ -81,6 +84,7 @@ class SoftEngine final : public Engine<Y.dim> {
     use += contacts_.memory();
     use += carried_.memory();
     use.grains += bodies_.bytes() + seen_.grains.bytes() + states_.bytes() + body_pass_.bytes();
+    use.grains += order_.bytes() + shown_.bytes();
     return use;
   }
 
@@ -119,11 +123,15 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
   Snapshot<D> snapshot() override {
-    fill_shown();
+    fill_contacts();
     Snapshot<D> shown = bodies_.view();
+    if (!order_.same()) {
+      shown_.show_grains(bodies_, order_.number(), shown);
+      shown_.number_contacts(order_.number());
+    }
     shown.engine = name();
     shown.time = time();
-    shown.contacts = &shown_;
+    shown.contacts = &shown_.contacts;
     return shown;
   }
 
@@ -138,9 +146,13 @@ class SoftEngine final : public Engine<Y.dim> {
 
   void save(Archive& archive) const override {
     bodies_.save(archive);
-    list_.save(archive);
+    list_.save(archive, order_.number());
     contacts_.save(archive);
     states_.save(archive, bodies_.grains());
+    order_.save(archive);
+    for (const char* start :
+         {"grains.", "md.acceleration.linear", "md.acceleration.angular", "md.acceleration_expected."})
+      order_.to_numbers(archive, start);
     body_pass_.save(archive);
     archive.reals["md.acceleration.modes"] = mode_acceleration_;
     archive.reals["md.acceleration_before.modes"] = mode_before_;
@@ -151,14 +163,18 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
   void restore(const Archive& archive) override {
+    bodies_.rearrange(order_.back());
+    order_.start(bodies_.grains());
     bodies_.restore(archive);
     list_.restore(archive, bodies_.grains());
-    contacts_.restore(archive, list_, bodies_.grains());
+    carried_.restore(archive, list_, bodies_.grains());
+    contacts_.carry(carried_, list_, bodies_.grains());
+    states_.restore(archive, bodies_);
+    rearrange(order_.restore(archive));
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     equal_pairs_ = pairs_are_equal();
     set_row_constants();
     energy_account_.restore(archive);
-    states_.restore(archive, bodies_);
     body_pass_.restore(archive);
     for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
     list_bound_.forget();
@@ -273,9 +289,9 @@ class SoftEngine final : public Engine<Y.dim> {
           fmt::format("at time {:.6g} the contact of grain {} and {} {} is deflected by {:.3g}: so stiff a contact "
                       "needs md.dt <= {:.4g}, "
                       "it is {:.4g}",
-                      time(), pairs.i[row], pairs.j[row] < bodies_.grains() ? "grain" : "plane",
-                      pairs.j[row] < bodies_.grains() ? pairs.j[row] : pairs.j[row] - bodies_.grains(), deflection,
-                      dt_ * std::sqrt(stiffest_ / stiffness), dt_));
+                      time(), order_.number()[pairs.i[row]], pairs.j[row] < bodies_.grains() ? "grain" : "plane",
+                      pairs.j[row] < bodies_.grains() ? order_.number()[pairs.j[row]] : pairs.j[row] - bodies_.grains(),
+                      deflection, dt_ * std::sqrt(stiffest_ / stiffness), dt_));
     }
   }
 
@@ -343,13 +359,27 @@ class SoftEngine final : public Engine<Y.dim> {
     list_age_ = 0;
     list_bound_.set(0);
     fetch_positions();
+    if (order_.decayed()) rearrange(order_.sorted(bodies_.cell, bodies_.position));
     std::swap(contacts_, carried_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of, order_.number());
+    order_.look_at(list_.pairs());
     contacts_.carry(carried_, list_, bodies_.grains());
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();
     // Building wraps the grains into the cell.
     for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
+  }
+
+  /// Another order of the grains in memory; contacts keep what they remember.
+  void rearrange(const Permutation& step) {
+    if (step.identity()) return;
+    bodies_.rearrange(step);
+    states_.rearrange(step);
+    seen_.grains.rearrange(step);
+    list_.renumber(step);
+    std::swap(contacts_, carried_);
+    contacts_.carry(carried_, list_, bodies_.grains());
+    order_.moved(step);
   }
 
   /// What the laws need of each row's two grains.
@@ -390,23 +420,24 @@ class SoftEngine final : public Engine<Y.dim> {
     return grain_frame<D>(branch, branch.squaredNorm(), bodies_.radius[i], bodies_.radius[j]);
   }
 
-  void fill_shown() {
-    shown_.clear();
+  void fill_contacts() {
+    ContactColumns<D>& shown = shown_.contacts;
+    shown.clear();
     for (std::size_t row = 0; row < list_.size(); ++row) {
       if (!contacts_.acts(row)) continue;
       const ContactFrame<D> frame = frame_of(row);
-      shown_.i.push_back(list_.pairs().i[row]);
-      shown_.j.push_back(list_.pairs().j[row]);
-      shown_.image.push_back(list_.pairs().image[row]);
-      shown_.normal.push_back(frame.normal);
-      shown_.branch.push_back(frame.branch);
-      shown_.gap.push_back(frame.gap);
-      shown_.force.push_back(contacts_.force(row));
-      if constexpr (Y.rolling) shown_.torque.push_back(contacts_.torque(row));
+      shown.i.push_back(list_.pairs().i[row]);
+      shown.j.push_back(list_.pairs().j[row]);
+      shown.image.push_back(list_.pairs().image[row]);
+      shown.normal.push_back(frame.normal);
+      shown.branch.push_back(frame.branch);
+      shown.gap.push_back(frame.gap);
+      shown.force.push_back(contacts_.force(row));
+      if constexpr (Y.rolling) shown.torque.push_back(contacts_.torque(row));
       if constexpr (Y.friction)
-        shown_.mobilised.push_back(mobilised_friction(kind_, terms_[contacts_.law(row)], contacts_.coefficient(row),
-                                                      frame, contacts_.force(row)));
-      if (range_ > 0) shown_.touching.push_back(contacts_.touches(row));
+        shown.mobilised.push_back(mobilised_friction(kind_, terms_[contacts_.law(row)], contacts_.coefficient(row),
+                                                     frame, contacts_.force(row)));
+      if (range_ > 0) shown.touching.push_back(contacts_.touches(row));
     }
   }
 
@@ -434,7 +465,8 @@ class SoftEngine final : public Engine<Y.dim> {
   ContactPass<Y> pass_;
   GrainPass<Y> grain_pass_;
   BodyPass<Y> body_pass_;
-  ContactColumns<D> shown_;
+  GrainOrder<D> order_;
+  Shown<Y> shown_;
   std::vector<double> partial_power_;
   EnergyAccount energy_account_;
   Profile profile_;

@@ -85,7 +85,8 @@ namespace {
 /// The columns that belong to the grains and to what their contacts remember, and not to the loading or the clock.
 bool kept(const std::string& name) {
   if (name == "md.acceleration.modes") return false;
-  for (const char* start : {"grains.", "contacts.", "neighbours.", "md.acceleration.", "md.acceleration_expected."})
+  for (const char* start :
+       {"grains.", "contacts.", "neighbours.", "md.acceleration.", "md.acceleration_expected.", "md.order"})
     if (name.starts_with(start)) return true;
   return name == "md.list_age" || name == "cell.box" || name == "cell.rate";
 }

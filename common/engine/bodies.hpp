@@ -6,6 +6,7 @@
 #include "common/core/column.hpp"
 #include "common/core/layout.hpp"
 #include "common/core/memory_use.hpp"
+#include "common/core/permutation.hpp"
 #include "common/engine/engine.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
@@ -120,6 +121,17 @@ struct Bodies {
         position[i] = image_near<D>(cell, inverse, Vec<D>(centre + arm[i]), position[i]);
       }
     }
+  }
+
+  /// Gives the grains another order. Sums over the grains of a rigid body keep theirs.
+  void rearrange(const Permutation& step) {
+    const auto apply = [&](auto& values) {
+      if (!values.empty()) step.apply(values);
+    };
+    apply(position), apply(velocity), apply(radius), apply(mass), apply(material), apply(arm);
+    if constexpr (Y.friction) apply(spin), apply(inertia);
+    apply(rigid.of), apply(rigid.offset), apply(rigid.contact_mass);
+    for (int& i : rigid.member) i = step.to(i);
   }
 
   /// m* of the dashpot between two grains, or a grain and a plane (j >= grains()).

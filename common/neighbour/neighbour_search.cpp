@@ -17,11 +17,11 @@ namespace galet {
 
 template <int D>
 void NeighbourSearch<D>::find(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-                              std::span<const Plane<D>> planes, std::span<const int> group, double limit,
-                              PairColumns<D>& pairs) {
+                              std::span<const Plane<D>> planes, std::span<const int> group, std::span<const int> number,
+                              double limit, PairColumns<D>& pairs) {
   pairs.i.clear(), pairs.j.clear(), pairs.image.clear();
   if (position.empty()) return;
-  const Sight sight{position, radius, cell, planes, group, cell.box.inverse(), limit};
+  const Sight sight{position, radius, cell, planes, group, number, cell.box.inverse(), limit};
   classify(radius);
   measure_extent(sight);
   fill_bins(sight);
@@ -156,7 +156,7 @@ void NeighbourSearch<D>::search_bin(int i, const SizeClass& size, int bin, const
       throw RunError(
           fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
                       "contact is too soft or the time step too large",
-                      std::min(i, j), std::max(i, j), overlap));
+                      std::min(sight.name(i), sight.name(j)), std::max(sight.name(i), sight.name(j)), overlap));
     if (SameClass || j > i)
       findings.own.push_back({j, image});
     else
@@ -208,7 +208,7 @@ void NeighbourSearch<D>::search_grain(int i, const Sight& sight, Findings& findi
   std::sort(findings.own.begin() + static_cast<std::ptrdiff_t>(begin), findings.own.end());
   for (std::size_t p = 0; p < sight.planes.size(); ++p) {
     const ContactFrame<D> frame = plane_frame<D>(sight.position[i], sight.radius[i], sight.planes[p]);
-    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind plane {}", i, p));
+    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind plane {}", sight.name(i), p));
     if (frame.gap < sight.limit) findings.own.push_back({static_cast<int>(sight.position.size() + p), Image<D>{}});
   }
 }

@@ -39,9 +39,11 @@ class NeighbourSearch {
  public:
   /// Fills `pairs` with all pairs whose gap is below `limit`. Grains must lie in the cell along periodic directions.
   /// Throws RunError, naming the grains, when a pair overlaps by more than half of the smaller radius or a grain is
-  /// behind a plane. Grains of one group (>= 0) are not paired; no groups: all are.
+  /// behind a plane. Grains of one group (>= 0) are not paired; no groups: all are. `number`: what messages call the
+  /// grains; none: their indices.
   void find(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
-            std::span<const Plane<D>> planes, std::span<const int> group, double limit, PairColumns<D>& pairs);
+            std::span<const Plane<D>> planes, std::span<const int> group, std::span<const int> number, double limit,
+            PairColumns<D>& pairs);
 
   MemoryUse memory() const;
 
@@ -75,9 +77,10 @@ class NeighbourSearch {
     std::span<const double> radius;
     const Cell<D>& cell;
     std::span<const Plane<D>> planes;
-    std::span<const int> group;
+    std::span<const int> group, number;
     Mat<D> to_fraction;
     double limit;
+    int name(int grain) const { return number.empty() ? grain : number[grain]; }
   };
 
   void classify(std::span<const double> radius);

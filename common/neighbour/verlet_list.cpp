@@ -64,7 +64,8 @@ bool VerletList<D>::expired(std::span<const Vec<D>> position, const Cell<D>& cel
 }
 
 template <int D>
-void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
+void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell, std::span<const int> number) {
+  const auto name = [&](std::size_t i) { return number.empty() ? static_cast<int>(i) : number[i]; };
   Eigen::Matrix<int, D, D> remap = tilt_reduction(cell);
   const Eigen::Matrix<int, D, D> identity = Eigen::Matrix<int, D, D>::Identity();
   Eigen::Matrix<int, D, D> inverse_remap = identity;
@@ -77,10 +78,10 @@ void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
   const Mat<D> to_fraction = cell.box.inverse();
   wraps_.assign(position.size(), Image<D>{});
   for (std::size_t i = 0; i < position.size(); ++i) {
-    if (!position[i].allFinite()) throw RunError(fmt::format("the position of grain {} is not finite", i));
+    if (!position[i].allFinite()) throw RunError(fmt::format("the position of grain {} is not finite", name(i)));
     const Vec<D> fraction = to_fraction * position[i];
     if (!(fraction.cwiseAbs().maxCoeff() < farthest_image))
-      throw RunError(fmt::format("grain {} is lost, far from the others", i));
+      throw RunError(fmt::format("grain {} is lost, far from the others", name(i)));
     for (int a = 0; a < D; ++a)
       if (cell.periodic[a]) wraps_[i][a] = -static_cast<int>(std::floor(fraction[a]));
     position[i] += lattice<D>(cell.box, wraps_[i]);
@@ -88,14 +89,31 @@ void VerletList<D>::wrap(std::span<Vec<D>> position, Cell<D>& cell) {
   carry_rows(inverse_remap);
 }
 
-/// Rewrites the images of the present pairs for the remapped cell and the wrapped grains, and finds the order in
-/// which they are sorted again: x_j + box image = x_j' + box' image' with x' = x + box' wrap.
+/// The present pairs become the old ones.
 template <int D>
-void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
+void VerletList<D>::keep_rows() {
   copy_with_room(pairs_.i, old_pairs_.i);
   copy_with_room(pairs_.j, old_pairs_.j);
   copy_with_room(pairs_.image, old_pairs_.image);
   refill(old_flipped_, old_pairs_.size(), std::uint8_t{0});
+}
+
+/// The one of the two ways to write an old pair of grains that lists have: i < j, or first lattice coordinate positive.
+template <int D>
+void VerletList<D>::put_in_order(std::size_t row) {
+  int &i = old_pairs_.i[row], &j = old_pairs_.j[row];
+  Image<D>& image = old_pairs_.image[row];
+  if (i < j || (i == j && first_nonzero_positive<D>(image))) return;
+  std::swap(i, j);
+  image = negative<D>(image);
+  old_flipped_[row] = 1;
+}
+
+/// Rewrites the images of the present pairs for the remapped cell and the wrapped grains, and finds the order in
+/// which they are sorted again: x_j + box image = x_j' + box' image' with x' = x + box' wrap.
+template <int D>
+void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
+  keep_rows();
   const int grains = static_cast<int>(wraps_.size());
   for (std::size_t row = 0; row < old_pairs_.size(); ++row) {
     const int i = old_pairs_.i[row], j = old_pairs_.j[row];
@@ -105,11 +123,14 @@ void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) remapped[a] += inverse_remap(a, b) * image[b];
     image = add<D>(add<D>(remapped, wraps_[i]), negative<D>(wraps_[j]));
-    if (i == j && !first_nonzero_positive<D>(image)) {
-      image = negative<D>(image);
-      old_flipped_[row] = 1;
-    }
+    put_in_order(row);
   }
+  sort_old_rows(grains);
+}
+
+/// The order of the old rows by (i, j, image).
+template <int D>
+void VerletList<D>::sort_old_rows(int grains) {
   old_order_.resize(old_pairs_.size());
   std::iota(old_order_.begin(), old_order_.end(), 0);
   const auto before = [this](int a, int b) {
@@ -117,18 +138,51 @@ void VerletList<D>::carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap) {
     if (old_pairs_.j[a] != old_pairs_.j[b]) return old_pairs_.j[a] < old_pairs_.j[b];
     return old_pairs_.image[a] < old_pairs_.image[b];
   };
-  // Only several images of one pair can have changed places, which is rare.
-  if (!std::is_sorted(old_order_.begin(), old_order_.end(), before))
-    std::sort(old_order_.begin(), old_order_.end(), before);
+  // As a rule only several images of one pair can have changed places, which is rare.
+  if (std::is_sorted(old_order_.begin(), old_order_.end(), before)) return;
+  first_.assign(grains + 1, 0);
+  for (const int i : old_pairs_.i) ++first_[i + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  cursor_.assign(first_.begin(), first_.end() - 1);
+  for (std::size_t row = 0; row < old_pairs_.size(); ++row)
+    old_order_[cursor_[old_pairs_.i[row]]++] = static_cast<int>(row);
+  for (int i = 0; i < grains; ++i)
+    std::sort(old_order_.begin() + first_[i], old_order_.begin() + first_[i + 1], before);
+}
+
+/// The list of the old rows in their order.
+template <int D>
+void VerletList<D>::take_old_rows(int grains) {
+  for (std::size_t row = 0; row < old_pairs_.size(); ++row) {
+    const int old = old_order_[row];
+    pairs_.i[row] = old_pairs_.i[old], pairs_.j[row] = old_pairs_.j[old], pairs_.image[row] = old_pairs_.image[old];
+  }
+  index_rows(grains);
+}
+
+template <int D>
+void VerletList<D>::renumber(const Permutation& step) {
+  const int grains = static_cast<int>(step.size());
+  keep_rows();
+  for (std::size_t row = 0; row < old_pairs_.size(); ++row) {
+    int &i = old_pairs_.i[row], &j = old_pairs_.j[row];
+    i = step.to(i);
+    if (j >= grains) continue;
+    j = step.to(j);
+    put_in_order(row);
+  }
+  sort_old_rows(grains);
+  take_old_rows(grains);
+  if (!reference_.empty()) step.apply(reference_);
 }
 
 template <int D>
 void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
-                          std::span<const Plane<D>> planes, std::span<const int> group) {
+                          std::span<const Plane<D>> planes, std::span<const int> group, std::span<const int> number) {
   try {
-    wrap(position, cell);
+    wrap(position, cell, number);
     largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
-    search_.find(position, radius, cell, planes, group, range_ + skin_, pairs_);
+    search_.find(position, radius, cell, planes, group, number, range_ + skin_, pairs_);
   } catch (const RunError&) {
     // Rows that no longer match what their owner keeps about them must not be read.
     forget_pairs(static_cast<int>(position.size()));
@@ -197,18 +251,22 @@ MemoryUse VerletList<D>::memory() const {
 }
 
 template <int D>
-void VerletList<D>::save(Archive& archive) const {
+void VerletList<D>::save(Archive& archive, std::span<const int> number) const {
+  const std::size_t grains = reference_.size();
+  const auto name = [&](int i) { return number.empty() || i >= static_cast<int>(grains) ? i : number[i]; };
   auto& pairs = archive.integers["neighbours.pairs"];
   pairs.clear();
   for (std::size_t row = 0; row < pairs_.size(); ++row) {
-    pairs.push_back(pairs_.i[row]);
-    pairs.push_back(pairs_.j[row]);
+    pairs.push_back(name(pairs_.i[row]));
+    pairs.push_back(name(pairs_.j[row]));
     for (int a = 0; a < D; ++a) pairs.push_back(pairs_.image[row][a]);
   }
   archive.integers["neighbours.builds"] = {builds_};
   auto& reals = archive.reals["neighbours.reference"];
   reals.assign({range_, skin_, largest_radius_});
-  for (const Vec<D>& x : reference_) reals.insert(reals.end(), x.begin(), x.end());
+  reals.resize(3 + grains * D);
+  for (std::size_t i = 0; i < grains; ++i)
+    std::copy_n(reference_[i].data(), D, reals.data() + 3 + static_cast<std::size_t>(name(static_cast<int>(i))) * D);
   for (const Vec<D>& x : plane_reference_) reals.insert(reals.end(), x.begin(), x.end());
   reals.insert(reals.end(), box_reference_.data(), box_reference_.data() + D * D);
 }
@@ -237,9 +295,11 @@ void VerletList<D>::restore(const Archive& archive, int grains) {
   for (Vec<D>& x : reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
   for (Vec<D>& x : plane_reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
   box_reference_ = Eigen::Map<const Mat<D>>(from);
-  old_pairs_ = {};
-  old_order_.clear();
-  index_rows(grains);
+  keep_rows();
+  for (std::size_t row = 0; row < rows; ++row)
+    if (old_pairs_.j[row] < grains) put_in_order(row);
+  sort_old_rows(grains);
+  take_old_rows(grains);
 }
 
 template class VerletList<2>;

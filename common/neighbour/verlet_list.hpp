@@ -25,6 +25,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/memory_use.hpp"
+#include "common/core/permutation.hpp"
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
 #include "common/geometry/plane.hpp"
@@ -49,9 +50,13 @@ class VerletList {
 
   /// Wraps positions and box, and lists all pairs anew. Throws RunError, naming the grains, when a position is not
   /// finite or absurdly far, a pair overlaps by more than half of the smaller radius, or a grain is behind a plane; the
-  /// list is then empty. Grains of one group (>= 0) are not paired; no groups: all are.
+  /// list is then empty. Grains of one group (>= 0) are not paired; no groups: all are. `number`: what messages call
+  /// the grains; none: their indices.
   void build(std::span<Vec<D>> position, std::span<const double> radius, Cell<D>& cell,
-             std::span<const Plane<D>> planes, std::span<const int> group = {});
+             std::span<const Plane<D>> planes, std::span<const int> group = {}, std::span<const int> number = {});
+
+  /// Gives the grains other indices: sorts the pairs anew by these, with origin() and flipped() as after build().
+  void renumber(const Permutation& step);
 
   const PairColumns<D>& pairs() const { return pairs_; }
   std::size_t size() const { return pairs_.size(); }
@@ -62,21 +67,27 @@ class VerletList {
   std::span<const int> second() const { return second_; }
   std::span<const int> rows_of_second() const { return rows_of_second_; }
 
-  /// For each listed pair, its row in the list before the last build, or -1.
+  /// For each listed pair, its row in the list before the last build or change of indices, or -1.
   std::span<const int> origin() const { return origin_; }
-  /// Whether i and j of a self-image pair changed places in the last build (vector histories change sign).
+  /// Whether i and j of a pair changed places in it (vector histories change sign).
   bool flipped(std::size_t row) const { return !flipped_.empty() && flipped_[row] != 0; }
 
   double skin() const { return skin_; }
   long builds() const { return builds_; }
   MemoryUse memory() const;
 
-  void save(Archive& archive) const;
+  /// In the archive grains have their `number`, or their indices where there is none.
+  void save(Archive& archive, std::span<const int> number = {}) const;
+  /// Indices are the archive's numbers. origin(): rows of the archive.
   void restore(const Archive& archive, int grains);
 
  private:
-  void wrap(std::span<Vec<D>> position, Cell<D>& cell);
+  void wrap(std::span<Vec<D>> position, Cell<D>& cell, std::span<const int> number);
   void carry_rows(const Eigen::Matrix<int, D, D>& inverse_remap);
+  void keep_rows();
+  void put_in_order(std::size_t row);
+  void sort_old_rows(int grains);
+  void take_old_rows(int grains);
   void index_rows(int grains);
   void forget_pairs(int grains);
 

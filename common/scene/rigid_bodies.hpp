@@ -14,7 +14,7 @@ template <int D>
 struct RigidBodies {
   std::vector<RigidBody<D>> body;
   std::vector<int> of;             ///< index of each grain's body, or -1
-  std::vector<int> first, member;  ///< grains of body b, ascending: member[first[b]] .. member[first[b + 1]]
+  std::vector<int> first, member;  ///< grains of body b, by number: member[first[b]] .. member[first[b + 1]]
   std::vector<Vec<D>> offset;      ///< of each grain from its body's centre, in the body's frame; zero for free grains
   std::vector<double> contact_mass;  ///< of each grain: what a blow on it meets, see contact_masses()
 

@@ -10,6 +10,7 @@
 #include "common/scene/loading.hpp"
 #include "common/scene/packing.hpp"
 #include "common/scene/stages.hpp"
+#include "md/grain_order.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
 #include "src/compare.hpp"
@@ -51,9 +52,15 @@ void add_notes(Outlook& outlook) {
     outlook.notes.push_back(fmt::format(
         "md.dt is above its stability bound {:.4g}{}", *derived.md_dt_stable,
         outlook.scene.md.allow_unsafe_dt ? ", as allowed by md.allow_unsafe_dt" : ": md will refuse to run"));
-  if (derived.md_dt)
+  if (derived.md_dt) {
     outlook.notes.push_back(fmt::format("on this machine md uses its {} kernels: {} contacts at once",
                                         to_string(instructions()), lane_width(instructions())));
+    const bool sorted = derived.grains.count >= md::least_sorted_grains;
+    outlook.notes.push_back(fmt::format("md keeps its grains in memory {} ({} {} grains)",
+                                        sorted ? "along Morton's curve, sorted anew when neighbours lie farther apart"
+                                               : "in the order of their numbers",
+                                        sorted ? "at least" : "fewer than", md::least_sorted_grains));
+  }
   if (outlook.scene.initial.kind == InitialKind::compressed_gas)
     outlook.notes.push_back(
         fmt::format("before the run the gas is compressed, for at most {:g} inertial times; that is not in the cost",
