@@ -124,10 +124,10 @@ void average_derived(Averages& result, const TimeSeries& series, const MeasureSc
 
 Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from, double start) {
   Averages result;
+  result.correlation_time.fill(std::numeric_limits<double>::quiet_NaN());
   result.from = start;
   // A part of the run that has only begun has no rows yet.
   if (series.rows.empty() || !(series.rows.back()[Observable::time] > start)) return result;
-  result.correlation_time.fill(std::numeric_limits<double>::quiet_NaN());
   require(average_from >= 0 && average_from < 1, "averages start at a fraction of the run below 1");
   result.from = start + average_from * (series.rows.back()[Observable::time] - start);
   for (int k = 0; k < observable_count; ++k) {

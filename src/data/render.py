@@ -7,6 +7,7 @@ grain), on the right the contact forces as tubes: radius and colour grow with th
 Exit codes: 0 done; 3 there is no VTK for this Python; 4 VTK has nothing to draw with; 1 anything else.
 """
 import ctypes
+import os
 import sys
 
 try:
@@ -17,6 +18,7 @@ except ImportError as error:
     print(error, file=sys.stderr)
     sys.exit(3)
 
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # VTK's own fonts have no Greek letters
 SATURATION = 4.0  # tubes grow up to this many mean forces
 RADIUS_AT_MEAN = 0.055  # of a tube, in mean diameters
 
@@ -84,6 +86,14 @@ def read(path):
     return reader.GetOutput()
 
 
+def set_font(text):
+    if os.path.isfile(FONT):
+        text.SetFontFamily(vtk.VTK_FONT_FILE)
+        text.SetFontFile(FONT)
+    else:
+        text.SetFontFamilyToArial()
+
+
 def colours(stops, low, high):
     table = vtk.vtkColorTransferFunction()
     table.SetColorSpaceToLab()
@@ -93,21 +103,22 @@ def colours(stops, low, high):
     return table
 
 
-def colour_bar(table, title):
+def colour_bar(table, title, width):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(title)
     bar.SetNumberOfLabels(5)
     bar.SetLabelFormat("%-#.3g")
     bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.2, 0.02)
+    bar.SetPosition(0.2, 0.025)
     bar.SetWidth(0.6)
-    bar.SetHeight(0.085)
+    bar.SetHeight(0.09)
     bar.SetTextPositionToPrecedeScalarBar()
     bar.UnconstrainedFontSizeOn()
-    for text, size in [(bar.GetTitleTextProperty(), 22), (bar.GetLabelTextProperty(), 20)]:
+    for text, size in [(bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 17)]:
         text.SetColor(0.1, 0.1, 0.1)
-        text.SetFontSize(size)
+        text.SetFontSize(size * width // 1600)
+        set_font(text)
         text.ItalicOff()
         text.BoldOff()
         text.ShadowOff()
@@ -120,6 +131,7 @@ def caption(text, x, y, size):
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(x, y)
     actor.GetTextProperty().SetFontSize(size)
+    set_font(actor.GetTextProperty())
     actor.GetTextProperty().SetColor(0.1, 0.1, 0.1)
     return actor
 
@@ -209,7 +221,7 @@ def look(renderer):
     camera.SetViewUp(0, 0, 1)
     camera.SetViewAngle(22)
     renderer.ResetCamera()
-    camera.Zoom(1.12)
+    camera.Zoom(1.08)
     centre = camera.GetFocalPoint()
     span = camera.GetDistance() * 0.02
     camera.SetFocalPoint(centre[0], centre[1], centre[2] - span)  # room for the bar below, the title above
@@ -231,30 +243,28 @@ def main(grains_path, contacts_path, cell_path, picture, colour, width, title):
         values = numpy.linalg.norm(vtk_to_numpy(data.GetArray("fluctuation")), axis=1)
         label, low = "speed of the fluctuation", 0.0
         high = float(numpy.percentile(values, 98)) or 1.0  # a few fast grains must not hide the others
-    grain_colours = colours(["#30123b", "#4675ed", "#1bcfd4", "#61fc6c", "#d1e834", "#fe9b2d", "#7a0403"], low, high)
+    grain_colours = colours(["#4a5a9e", "#2f7f9d", "#22a884", "#7ad151", "#fde725"], low, high)
     force_colours = colours(["#ec973e", "#d65424", "#a0182a", "#4a0422"], 0.0, SATURATION)
 
     left, right = vtk.vtkRenderer(), vtk.vtkRenderer()
     left.SetViewport(0, 0, 0.5, 1)
     right.SetViewport(0.5, 0, 1, 1)
     left.AddActor(grains_actor(grains, values, grain_colours, 1.0))
-    left.AddActor2D(colour_bar(grain_colours, label))
+    left.AddActor2D(colour_bar(grain_colours, label, width))
     tubes = tubes_actor(contacts, diameter, force_colours)
-    right.AddActor(grains_actor(grains, None, None, 0.07))
+    right.AddActor(grains_actor(grains, None, None, 0.1))
     if tubes is not None:
         right.AddActor(tubes)
-        right.AddActor2D(colour_bar(force_colours, "normal force / its mean"))
+        right.AddActor2D(colour_bar(force_colours, "normal force / its mean", width))
     else:
-        right.AddActor2D(caption("no contact forces", 0.38, 0.06, 22))
-    left.AddActor2D(caption(title, 0.03, 0.955, 26))
-    right.AddActor2D(caption("contact forces", 0.03, 0.955, 22))
+        right.AddActor2D(caption("no contact forces", 0.38, 0.06, 22 * width // 1600))
+    left.AddActor2D(caption(title, 0.03, 0.95, 23 * width // 1600))
+    right.AddActor2D(caption("contact forces", 0.03, 0.95, 20 * width // 1600))
     for renderer in (left, right):
         renderer.SetBackground(1, 1, 1)
         renderer.AddActor(edges_actor(cell))
-        renderer.UseFXAAOn()
         window.AddRenderer(renderer)
-    right.SetUseDepthPeeling(1)
-    right.SetMaximumNumberOfPeels(30)
+    window.SetMultiSamples(8)
     window.SetSize(width, width * 9 // 16)
     look(left)
     right.SetActiveCamera(left.GetActiveCamera())
@@ -274,5 +284,4 @@ if __name__ == "__main__":
     code = main(*sys.argv[1:6], int(sys.argv[6]), sys.argv[7])
     sys.stderr.flush()
     # Without VTK's own clean-up, which looks for the X server that is not there.
-    import os
     os._exit(code)

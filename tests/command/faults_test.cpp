@@ -13,6 +13,7 @@
 #include <sys/mount.h>
 #include <sys/resource.h>
 
+#include "common/core/clock.hpp"
 #include "common/core/error.hpp"
 #include "common/core/random.hpp"
 #include "common/io/checkpoint.hpp"
@@ -73,11 +74,13 @@ class Faults : public testing::TestWithParam<const char*> {
  protected:
   std::string engine() const { return GetParam(); }
   std::string in(const std::string& name) const { return folder_.file(name); }
-  /// The run without disturbance: its state's hash.
+  /// The run without disturbance: its state's hash, and how long it took.
   std::string hash_of_whole_run() {
     write_file(in("scene.toml"), scene_of(engine(), duration_of(engine())));
+    const double start = wall_seconds();
     EXPECT_EQ(run_galet({"run", in("scene.toml"), "--out", in("whole")}, in("whole.log")), 0)
         << read_file(in("whole.log"));
+    seconds_ = wall_seconds() - start;
     return hash_in(in("whole/" + engine() + "_summary.json"));
   }
   /// Runs on from the checkpoint of `out` to the end: its state's hash.
@@ -88,6 +91,7 @@ class Faults : public testing::TestWithParam<const char*> {
   }
 
   TemporaryFolder folder_;
+  double seconds_ = 0;  ///< of the whole run, on this machine as busy as it is
 };
 
 const auto name_of = [](const auto& info) { return std::string(info.param); };
@@ -119,14 +123,14 @@ TEST_P(Faults, KilledAtAnyMoment_restart) {
   for (int attempt = 0; killed < kills && attempt < 10 * kills; ++attempt) {
     const std::string out = fmt::format("killed_{}", finished),
                       checkpoint = in(out + "/" + engine() + "_checkpoint.h5");
-    std::vector<std::string> arguments = {"run", "--checkpoint-every", "0.003", "--out", in(out)};
+    std::vector<std::string> arguments = {"run", "--checkpoint-every", "0.02", "--out", in(out)};
     if (fs::exists(checkpoint))
       arguments.insert(arguments.end(), {"--resume", checkpoint}), ++resumed;
     else
       arguments.push_back(in("scene.toml"));
     RandomStream random(99, static_cast<std::uint64_t>(attempt));
     RunningProgram program(arguments, in("killed.log"));
-    sleep_for(random.uniform(0.0, 0.25));
+    sleep_for(random.uniform(0.0, seconds_));
     if (!program.ended()) {
       program.send(SIGKILL);
       if (program.wait() == -SIGKILL) ++killed;
@@ -172,7 +176,7 @@ TEST_P(Faults, AFullFileSystem_restart) {
   const SmallFileSystem disk(in("disk"), 1200);
   if (!disk.there()) GTEST_SKIP() << "no right to mount a small file system: run as root to test a full one";
   const std::string log = in("full.log"), checkpoint = in("disk/out/" + engine() + "_checkpoint.h5");
-  EXPECT_EQ(run_galet({"run", in("scene.toml"), "--out", in("disk/out"), "--checkpoint-every", "0.003"}, log), 1);
+  EXPECT_EQ(run_galet({"run", in("scene.toml"), "--out", in("disk/out"), "--checkpoint-every", "0.02"}, log), 1);
   const std::string said = read_file(log);
   EXPECT_TRUE(has(said, "No space left on device")) << said;
   EXPECT_TRUE(has(said, "can't write '" + in("disk/out/"))) << said;

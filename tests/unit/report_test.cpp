@@ -27,7 +27,7 @@ material.restitution = 0.1
 material.stiffness_level = 1e3
 initial = {kind = "gas", solid_fraction = 0.5}
 loading = {kind = "plane_shear", pressure = 1, inertial_number = 0.2}
-run = {duration = 3, samples = 30}
+run = {duration = 8, samples = 40}
 cd = {dt_factor = 0.02, tolerance = 1e-2}
 output.measures = ["forces", "gaps", "profile", "voronoi", "directions", "friction", "indeterminacy", "moduli"]
 )";
