@@ -102,6 +102,12 @@ FinalMeasures final_measures(const Scene& scene, const Derived& derived, const S
     result.gaps = gap_distribution(snapshot, largest_gap * diameter, gap_intervals);
     for (GapRow& row : result.gaps) row.gap /= diameter;
   }
+  if (asked.has(MeasureKind::directions)) {
+    // The plane in which the loading sets directions apart: that of the shear, else one through the axis.
+    const bool sheared = D == 2 || derived.shear_rate.value_or(0) != 0;
+    result.directions = contact_directions(snapshot, direction_sectors, {0, sheared ? 1 : D - 1});
+    result.direction_axes = sheared ? "xy" : "xz";
+  }
   if (asked.has(MeasureKind::profile)) put_profile(result, scene, snapshot, profile);
   if (asked.has(MeasureKind::voronoi)) result.local_solid_fraction = local_solid_fraction(snapshot);
   if (asked.has(MeasureKind::indeterminacy))

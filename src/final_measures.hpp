@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/core/archive.hpp"
+#include "common/measure/contact_directions.hpp"
 #include "common/measure/elastic_moduli.hpp"
 #include "common/measure/equilibrium_matrix.hpp"
 #include "common/measure/force_distribution.hpp"
@@ -36,6 +38,8 @@ class ProfileAverage {
 struct FinalMeasures {
   std::optional<ForceDistribution> forces;
   std::vector<GapRow> gaps;  ///< gaps in units of d
+  std::vector<DirectionRow> directions;
+  std::string direction_axes = "xy";  ///< the plane that these are of
   std::vector<ProfileRow> profile;
   long profile_states = 0;  ///< rows that the profile is a mean of; 0: it is that of the last state
   Vec<3> profile_normal = Vec<3>::UnitY();
@@ -47,6 +51,8 @@ struct FinalMeasures {
 /// Largest gap of the distribution, and its step, in units of d.
 inline constexpr double largest_gap = 0.5;
 inline constexpr int gap_intervals = 100;
+/// Of contact directions.
+inline constexpr int direction_sectors = 18;
 
 /// Of the last state. `sample` says what the grains are made of.
 template <int D>

@@ -1,6 +1,7 @@
 #include "src/final_measures_json.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -107,6 +108,22 @@ CsvTable gap_table(const std::vector<GapRow>& rows) {
   return table;
 }
 
+CsvTable direction_table(const std::vector<DirectionRow>& rows, const std::string& axes) {
+  CsvTable table;
+  table.comments = {fmt::format("angle: of the normal from {} towards {}, middle of the sector", axes[0], axes[1]),
+                    "density: of contacts, 1 where they are isotropic",
+                    "F_normal, F_tangential: mean of the sector / mean normal force of all; F_tangential along the "
+                    "normal turned by 90 degrees"};
+  table.columns = {{"angle", "deg"}, {"contacts", ""}, {"density", ""}, {"F_normal", ""}, {"F_tangential", ""}};
+  for (const DirectionRow& row : rows) {
+    table.rows.push_back({row.angle * 180 / std::numbers::pi, static_cast<std::int64_t>(row.contacts), row.density,
+                          CsvCell{}, CsvCell{}});
+    if (!std::isnan(row.normal_force))
+      table.rows.back()[3] = row.normal_force, table.rows.back()[4] = row.tangential_force;
+  }
+  return table;
+}
+
 CsvTable voronoi_table(const std::vector<double>& phi) {
   CsvTable table;
   table.comments = {"Phi: volume of the grain / volume of its Voronoi cell"};
@@ -144,14 +161,16 @@ CsvTable profile_table(const FinalMeasures& measures, const MeasureScale& scale)
                         : std::string("of the last state"),
                     "y: middle of the layer; grains: centres in it; shear_rate: of the velocity along the layer",
                     "mu_star, I: of the stress across the layer"};
-  table.columns = {{"y", ""}, {"grains", ""}};
+  const auto unit = [&](const char* name) { return scale.si ? std::string(name) : std::string(); };
+  table.columns = {{"y", unit("m")}, {"grains", ""}};
   const std::string axes = "xyz";
   const std::size_t dimension = static_cast<std::size_t>(scale.dimension);
-  for (std::size_t a = 0; a < dimension; ++a) table.columns.push_back({std::string("v_") + axes[a], ""});
-  for (const char* name : {"shear_rate", "Phi", "fluctuation", "T"}) table.columns.push_back({name, ""});
+  for (std::size_t a = 0; a < dimension; ++a) table.columns.push_back({std::string("v_") + axes[a], unit("m/s")});
+  table.columns.insert(table.columns.end(),
+                       {{"shear_rate", unit("1/s")}, {"Phi", ""}, {"fluctuation", unit("m2/s2")}, {"T", unit("J")}});
   for (std::size_t a = 0; a < dimension; ++a)
     for (std::size_t b = 0; b < dimension; ++b)
-      table.columns.push_back({std::string("sigma_") + axes[a] + axes[b], ""});
+      table.columns.push_back({std::string("sigma_") + axes[a] + axes[b], unit(dimension == 2 ? "N/m" : "Pa")});
   table.columns.push_back({"mu_star", ""}), table.columns.push_back({"I", ""});
   for (const ProfileRow& row : measures.profile)
     table.rows.push_back(profile_cells(row, measures.profile_normal, scale));
@@ -164,6 +183,8 @@ std::vector<NamedTable> measure_tables(const FinalMeasures& measures, const Meas
   std::vector<NamedTable> tables;
   if (measures.forces) tables.push_back({"forces", force_table(*measures.forces)});
   if (!measures.gaps.empty()) tables.push_back({"gaps", gap_table(measures.gaps)});
+  if (!measures.directions.empty())
+    tables.push_back({"directions", direction_table(measures.directions, measures.direction_axes)});
   if (!measures.profile.empty()) tables.push_back({"profile", profile_table(measures, scale)});
   if (!measures.local_solid_fraction.empty())
     tables.push_back({"voronoi", voronoi_table(measures.local_solid_fraction)});

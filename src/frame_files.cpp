@@ -27,8 +27,8 @@ std::array<std::string, 3> paraview_texts(const Snapshot<D>& snapshot, const std
 
 }  // namespace
 
-FrameFiles::FrameFiles(std::string stem, std::vector<std::string> formats, std::vector<int> material)
-    : stem_(std::move(stem)), formats_(std::move(formats)), material_(std::move(material)) {
+FrameFiles::FrameFiles(std::string stem, std::vector<std::string> formats, std::vector<int> material, bool si)
+    : stem_(std::move(stem)), formats_(std::move(formats)), material_(std::move(material)), si_(si) {
   if (formats_.empty()) formats_ = {"paraview"};
 }
 
@@ -38,6 +38,13 @@ void FrameFiles::write(const Frame& frame, const Snapshot<D>& snapshot) const {
   for (const std::string& format : formats_) {
     if (format == "xyz") write_file(numbered(stem_, index, ".xyz"), extended_xyz(snapshot, material_));
     if (format == "lammps") write_file(numbered(stem_, index, ".dump"), lammps_dump(snapshot, frame.step, material_));
+    if (format == "hdf5") {
+      write_file(numbered(stem_, index, ".h5"), hdf5_state(snapshot, {frame.step, material_, si_}));
+      const std::string name = std::filesystem::path(stem_).filename().string();
+      std::vector<std::string> files;
+      for (std::size_t k = 0; k < frame.times.size(); ++k) files.push_back(numbered(name, static_cast<long>(k), ".h5"));
+      write_file(stem_ + "_trajectory.h5", hdf5_trajectory(frame.times, frame.steps, files));
+    }
     if (format != "paraview") continue;
     const std::array<std::string, 3> texts = paraview_texts(snapshot, material_);
     for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -59,33 +66,35 @@ std::vector<std::string> FrameFiles::opened() const {
       for (const char* part : parts) names.push_back(stem_ + '_' + part + ".pvd");
     if (format == "xyz") names.push_back(stem_ + "_*.xyz");
     if (format == "lammps") names.push_back(stem_ + "_*.dump");
+    if (format == "hdf5") names.push_back(stem_ + "_trajectory.h5");
   }
   return names;
 }
 
 template <int D>
 std::vector<std::string> write_state(const std::string& stem, const std::string& format, const Snapshot<D>& snapshot,
-                                     long step, const std::vector<int>& material) {
+                                     const StateLabels& labels) {
   std::vector<std::string> paths;
   const auto put = [&](const std::string& path, const std::string& text) {
     write_file(path, text);
     paths.push_back(path);
   };
-  if (format == "xyz") put(stem + ".xyz", extended_xyz(snapshot, material));
-  if (format == "dump") put(stem + ".dump", lammps_dump(snapshot, step, material));
+  if (format == "xyz") put(stem + ".xyz", extended_xyz(snapshot, labels.material));
+  if (format == "dump") put(stem + ".dump", lammps_dump(snapshot, labels.step, labels.material));
+  if (format == "hdf5") put(stem + ".h5", hdf5_state(snapshot, labels));
   if (format == "paraview") {
-    const std::array<std::string, 3> texts = paraview_texts(snapshot, material);
+    const std::array<std::string, 3> texts = paraview_texts(snapshot, labels.material);
     for (std::size_t part = 0; part < parts.size(); ++part) put(stem + '_' + parts[part] + ".vtp", texts[part]);
   }
-  require(!paths.empty(), "a state is written as paraview, xyz or dump");
+  require(!paths.empty(), "a state is written as paraview, hdf5, xyz or dump");
   return paths;
 }
 
 template void FrameFiles::write<2>(const Frame&, const Snapshot<2>&) const;
 template void FrameFiles::write<3>(const Frame&, const Snapshot<3>&) const;
-template std::vector<std::string> write_state<2>(const std::string&, const std::string&, const Snapshot<2>&, long,
-                                                 const std::vector<int>&);
-template std::vector<std::string> write_state<3>(const std::string&, const std::string&, const Snapshot<3>&, long,
-                                                 const std::vector<int>&);
+template std::vector<std::string> write_state<2>(const std::string&, const std::string&, const Snapshot<2>&,
+                                                 const StateLabels&);
+template std::vector<std::string> write_state<3>(const std::string&, const std::string&, const Snapshot<3>&,
+                                                 const StateLabels&);
 
 }  // namespace galet

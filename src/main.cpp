@@ -1,4 +1,5 @@
 // The command line: galet SUBCOMMAND ... Exit codes: 0 done, 1 the run failed or was stopped, 2 bad input.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -8,6 +9,7 @@
 
 #include "common/core/error.hpp"
 #include "src/commands/commands.hpp"
+#include "src/version.hpp"
 
 namespace {
 
@@ -36,11 +38,13 @@ int perform(const galet::cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow further is an error of write(), like a full disk, and no reason to be killed.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app(
       "Granular materials of disks and spheres: soft-sphere molecular dynamics (md) and nonsmooth contact "
       "dynamics (cd) on one scene.",
       "galet");
-  app.set_version_flag("--version", "galet " GALET_VERSION);
+  app.set_version_flag("--version", "galet " + galet::program_version());
   app.require_subcommand(1);
   galet::cli::Action action;
   galet::cli::add_run(app, action);
@@ -49,6 +53,8 @@ int main(int argc, char** argv) {
   galet::cli::add_check(app, action);
   galet::cli::add_solve(app, action);
   galet::cli::add_export(app, action);
+  galet::cli::add_picture(app, action);
+  galet::cli::add_report(app, action);
   galet::cli::add_reference(app, action);
   try {
     app.parse(argc, argv);

@@ -20,6 +20,7 @@ struct MeasureScale {
   std::optional<PairLaw> law;  ///< of [material], for kappa; none for rigid grains
   double energy_at_start = 0;  ///< total energy that the budget starts from
   MeasureSet asked;            ///< by output.measures
+  bool si = false;             ///< the scene is in SI units
   Vec<3> gravity = Vec<3>::Zero();
   std::vector<char> held;  ///< 1 for a grain that is glued to a rigid body; empty: none is
 };

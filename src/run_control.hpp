@@ -24,6 +24,7 @@ struct Progress {
 struct Frame {
   long step = 0;
   std::vector<double> times;  ///< of the frames from the first to this one: its index is the last of them
+  std::vector<long> steps;    ///< of the same frames
 };
 
 struct RunControl {

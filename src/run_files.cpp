@@ -6,6 +6,7 @@
 
 #include "common/io/csv.hpp"
 #include "common/io/files.hpp"
+#include "common/io/hdf5_states.hpp"
 #include "common/io/svg.hpp"
 #include "src/engines.hpp"
 #include "src/final_measures_json.hpp"
@@ -35,9 +36,12 @@ std::vector<std::string> write_run(const RunResult& result, Simulation<D>& simul
                                    const std::string& directory) {
   const std::string engine = engine_name(result.engine);
   const auto path = [&](const std::string& name) { return (std::filesystem::path(directory) / name).string(); };
-  std::vector<std::string> files = {path(engine + "_series.csv"), path(engine + "_summary.json")};
-  write_csv(files[0], to_table(result.series));
-  write_file(files[1], to_json(result, scene) + "\n");
+  std::vector<std::string> files = {path(engine + "_series.csv"), path(engine + "_series.h5"),
+                                    path(engine + "_summary.json")};
+  const CsvTable series = to_table(result.series);
+  write_csv(files[0], series);
+  write_file(files[1], hdf5_table(series));
+  write_file(files[2], to_json(result, scene) + "\n");
   add_figure(files, path(engine + (result.strain != 0 ? "_mu_star" : "_Phi")), history(result, scene));
   for (const NamedTable& measure : measure_tables(result.measures, simulation.scale())) {
     files.push_back(path(engine + "_" + measure.name + ".csv"));

@@ -8,6 +8,7 @@
 #include "src/engines.hpp"
 #include "src/final_measures_json.hpp"
 #include "src/text_table.hpp"
+#include "src/version.hpp"
 
 namespace galet {
 
@@ -26,7 +27,8 @@ Json averages_json(const RunResult& result) {
   for (int k = 0; k < observable_count; ++k)
     if (averaged(k, result.series))
       json[std::string(observable_table[k].name)] = {{"value", result.averages.values[k].value},
-                                                     {"error", result.averages.values[k].error}};
+                                                     {"error", result.averages.values[k].error},
+                                                     {"autocorrelation_time", result.averages.correlation_time[k]}};
   return json;
 }
 
@@ -75,6 +77,20 @@ Json compression_json(const std::optional<CompressionReport>& report) {
           {"seconds", report->cpu_seconds}};
 }
 
+Json origin_json(const RunOrigin& origin) {
+  Json json{{"dimension", origin.dimension},
+            {"grains", origin.grains},
+            {"seed", origin.seed},
+            {"units", origin.reduced_units ? "reduced" : "SI"},
+            {"scene", origin.scene}};
+  json["changes"] = Json::array();
+  for (const Override& change : origin.changes) json["changes"].push_back(change.path + "=" + change.value);
+  json["derived"] = Json::array();
+  for (const DerivedLine& line : origin.derived)
+    json["derived"].push_back({{"symbol", line.symbol}, {"value", line.value}, {"from", line.from}});
+  return json;
+}
+
 }  // namespace
 
 std::string to_string(Ending ending) {
@@ -115,6 +131,8 @@ std::string to_json(const RunResult& result, const std::string& scene) {
   for (std::size_t k = 0; k < stage_names.size(); ++k)
     json["stage_seconds"][std::string(stage_names[k])] = result.stage_seconds[k];
   json["notes"] = result.notes;
+  json["origin"] = origin_json(result.origin);
+  json["program"] = {{"version", program_version()}, {"build", program_build()}};
   json["state_hash"] = fmt::format("{:016x}", result.state_hash);
   return json.dump(2);
 }

@@ -11,6 +11,8 @@
 #include "common/core/layout.hpp"
 #include "common/core/profile.hpp"
 #include "common/engine/engine.hpp"
+#include "common/io/scene_file.hpp"
+#include "common/scene/derive.hpp"
 #include "common/scene/scene.hpp"
 #include "src/compression.hpp"
 #include "src/final_measures.hpp"
@@ -37,7 +39,19 @@ struct StageReport {
   Measurement last;  ///< the latest single sample of the stage
 };
 
+/// What was run: with it a summary says by itself what its numbers are of.
+struct RunOrigin {
+  std::string scene;                 ///< text of the scene file; empty for a scene built in code
+  std::vector<Override> changes;     ///< made to it on the command line
+  std::vector<DerivedLine> derived;  ///< the numbers that follow from it, as `galet describe` prints them
+  int dimension = 2;
+  int grains = 0;
+  std::uint64_t seed = 0;
+  bool reduced_units = true;
+};
+
 struct RunResult {
+  RunOrigin origin;
   EngineKind engine = EngineKind::md;
   Layout layout{2, false};
   Ending ending = Ending::finished;

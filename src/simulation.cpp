@@ -100,6 +100,7 @@ void Simulation<D>::start_run(const Sample<D>& start, std::size_t stage) {
     schedule_.steps_per_frame =
         static_cast<double>(total) / static_cast<double>(std::min<long>(scene_.output.frames, total));
   series_.dimension = D;
+  series_.si = !scene_.reduced_units;
   series_.asked = scale_.asked;
   series_.budget = kind_ == EngineKind::md && scene_.md.energy_budget;
 }
@@ -129,6 +130,7 @@ void Simulation<D>::start_stage() {
   scale_ = measure_scale(course_.derived(), kind_ == EngineKind::cd);
   scale_.energy_at_start = energy_at_start;
   scale_.asked = MeasureSet(scene_.output.measures);
+  scale_.si = !scene_.reduced_units;
   const std::vector<double>& gravity = course_.scene().loading.gravity;
   for (std::size_t a = 0; a < gravity.size(); ++a) scale_.gravity[a] = gravity[a];
   for (const int body : start_.body) scale_.held.push_back(body >= 0 ? 1 : 0);
@@ -260,7 +262,9 @@ bool Simulation<D>::settle(const RunResult& gas, RunResult& result) {
 template <int D>
 RunResult Simulation<D>::run(const RunControl& control) {
   RunResult result;
-  if (!prepare(control, result)) return result;
+  const bool prepared = prepare(control, result);
+  result.origin = origin();
+  if (!prepared) return result;
   Pace pace(control, engine_->steps());
   try {
     if (pace.copy_due()) keep_last_good();
@@ -340,9 +344,11 @@ void Simulation<D>::keep_last_good() {
 
 template <int D>
 void Simulation<D>::write_frame(const RunControl& control) {
-  Frame frame{engine_->steps(), {}};
-  for (long k = 0; schedule_.step_of_frame(k) <= engine_->steps(); ++k)
-    frame.times.push_back(static_cast<double>(schedule_.step_of_frame(k)) * engine_->dt());
+  Frame frame{engine_->steps(), {}, {}};
+  for (long k = 0; schedule_.step_of_frame(k) <= engine_->steps(); ++k) {
+    frame.steps.push_back(schedule_.step_of_frame(k));
+    frame.times.push_back(static_cast<double>(frame.steps.back()) * engine_->dt());
+  }
   control.frame(frame);
 }
 
@@ -374,6 +380,12 @@ std::optional<Ending> Simulation<D>::take_sample(Pace& pace) {
 }
 
 // ---- What is handed back ----
+
+template <int D>
+RunOrigin Simulation<D>::origin() const {
+  return {scene_.source,         overrides_,  explain(scene_, derived_), D,
+          derived_.grains.count, scene_.seed, scene_.reduced_units};
+}
 
 template <int D>
 void Simulation<D>::report(RunResult& result) const {

@@ -87,6 +87,7 @@ class Simulation {
   std::optional<Ending> take_sample(Pace& pace);
   void keep_last_good();
   void write_frame(const RunControl& control);
+  RunOrigin origin() const;
   void report(RunResult& result) const;
   void add_notes(RunResult& result) const;
 

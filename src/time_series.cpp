@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/core/error.hpp"
+#include "common/measure/autocorrelation.hpp"
 
 namespace galet {
 
@@ -123,6 +124,7 @@ void average_derived(Averages& result, const TimeSeries& series, const MeasureSc
 
 Averages averages(const TimeSeries& series, const MeasureScale& scale, double average_from, double start) {
   Averages result;
+  result.correlation_time.fill(std::numeric_limits<double>::quiet_NaN());
   result.from = start;
   // A part of the run that has only begun has no rows yet.
   if (series.rows.empty() || !(series.rows.back()[Observable::time] > start)) return result;
@@ -131,6 +133,7 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
   for (int k = 0; k < observable_count; ++k) {
     std::vector<double> values = series.column(static_cast<Observable>(k), result.from);
     result.rows = static_cast<int>(values.size());
+    const std::vector<double> times = series.column(Observable::time, result.from);
     std::erase_if(values, [](double value) { return std::isnan(value); });
     if (values.empty())
       result.values[k] = {std::numeric_limits<double>::quiet_NaN(), 0};
@@ -138,6 +141,10 @@ Averages averages(const TimeSeries& series, const MeasureScale& scale, double av
       result.values[k] = {*std::max_element(values.begin(), values.end()), 0};
     else
       result.values[k] = block_average(values);
+    // Rows without a value leave gaps, whose lengths the correlation would not see.
+    if (observable_table[k].reduction != Reduction::largest && values.size() == times.size() && times.size() > 1)
+      result.correlation_time[k] =
+          autocorrelation_time(values) * (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   }
   average_derived(result, series, scale);
   return result;
@@ -163,12 +170,27 @@ bool shown(Observable observable, const TimeSeries& series) {
   return false;
 }
 
+std::string si_unit(Observable observable, int dimension) {
+  const auto within = [observable](Observable first, Observable last) {
+    return first <= observable && observable <= last;
+  };
+  if (observable == Observable::time) return "s";
+  if (within(Observable::sigma_xx, Observable::sigma_yz) || observable == Observable::pressure)
+    return dimension == 2 ? "N/m" : "Pa";
+  if (within(Observable::kinetic_per_grain, Observable::energy_residual) ||
+      within(Observable::temperature, Observable::rotational_temperature))
+    return "J";
+  return "";
+}
+
 CsvTable to_table(const TimeSeries& series) {
   CsvTable table;
+  if (!series.si) table.comments.emplace_back("in the scene's own (reduced) units");
   for (int k = 0; k < observable_count; ++k) {
     if (!shown(static_cast<Observable>(k), series)) continue;
     table.comments.push_back(fmt::format("{}: {}", observable_table[k].name, observable_table[k].meaning));
-    table.columns.push_back({std::string(observable_table[k].name), ""});
+    table.columns.push_back({std::string(observable_table[k].name),
+                             series.si ? si_unit(static_cast<Observable>(k), series.dimension) : std::string()});
   }
   for (const Measurement& row : series.rows) {
     std::vector<CsvCell>& cells = table.rows.emplace_back();

@@ -34,6 +34,7 @@ class RowAverager {
 struct TimeSeries {
   int dimension = 2;
   bool budget = false;  ///< whether energy was accounted for
+  bool si = false;      ///< in SI units, else in the scene's own
   MeasureSet asked;     ///< measures beyond those of every run
   std::vector<Measurement> rows;
 
@@ -50,6 +51,9 @@ struct Averages {
   double from = 0;
   int rows = 0;
   std::array<Estimate, observable_count> values{};
+  /// Integrated autocorrelation times (autocorrelation.hpp) of the rows; NaN where there is none. A row is a mean over
+  /// its interval: memories shorter than half of that don't show.
+  std::array<double, observable_count> correlation_time{};
   const Estimate& operator[](Observable observable) const { return values[static_cast<int>(observable)]; }
 };
 
@@ -65,7 +69,11 @@ Estimate ratio_of_means(const std::vector<double>& numerator, const std::vector<
 /// Is the observable a column of tables of such a run?
 bool shown(Observable observable, const TimeSeries& series);
 
-/// The series as a table: one column per observable, an empty cell where one has no meaning.
+/// The unit of an observable in a scene in SI units; empty for pure numbers. (2D: grains have no thickness, a stress is
+/// a force per length.)
+std::string si_unit(Observable observable, int dimension);
+
+/// The series as a table: one column per observable, with its unit in SI, an empty cell where one has no meaning.
 CsvTable to_table(const TimeSeries& series);
 
 }  // namespace galet

@@ -1,6 +1,7 @@
 #include "common/io/csv.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -102,7 +103,7 @@ Mistake NumberTable::mistake(int column, const std::string& message) const {
   return {file_, header_line_, header_place_[column], message};
 }
 
-NumberTable parse_csv(std::string_view text, const std::string& name) {
+NumberTable parse_csv(std::string_view text, const std::string& name, EmptyCells empty) {
   NumberTable table;
   table.file_ = name;
   std::vector<Mistake> mistakes;
@@ -139,7 +140,8 @@ NumberTable parse_csv(std::string_view text, const std::string& name) {
     }
     table.line_.push_back(number);
     for (const CellPlace& cell : cells) {
-      const std::optional<double> value = parse_real(cell.text);
+      std::optional<double> value = parse_real(cell.text);
+      if (cell.text.empty() && empty == EmptyCells::not_a_number) value = std::numeric_limits<double>::quiet_NaN();
       if (!value) report(cell.column, "expected a number, found '" + cell.text + "'");
       table.value_.push_back(value.value_or(0));
       table.place_.push_back(cell.column);
@@ -150,6 +152,6 @@ NumberTable parse_csv(std::string_view text, const std::string& name) {
   return table;
 }
 
-NumberTable read_csv(const std::string& path) { return parse_csv(read_file(path), path); }
+NumberTable read_csv(const std::string& path, EmptyCells empty) { return parse_csv(read_file(path), path, empty); }
 
 }  // namespace galet

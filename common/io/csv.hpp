@@ -32,6 +32,11 @@ struct CsvTable {
 /// Writes the table whole or not at all (see write_file). Every row must have as many cells as there are columns.
 void write_csv(const std::string& path, const CsvTable& table);
 
+enum class EmptyCells {
+  mistakes,     ///< a table that is input: each cell needs its number
+  not_a_number  ///< a table that write_csv wrote: an empty cell is a value that has no meaning
+};
+
 /// A table of numbers as read, with the places where they stood.
 class NumberTable {
  public:
@@ -48,7 +53,7 @@ class NumberTable {
   Mistake mistake(int column, const std::string& message) const;
 
  private:
-  friend NumberTable parse_csv(std::string_view, const std::string&);
+  friend NumberTable parse_csv(std::string_view, const std::string&, EmptyCells);
   std::size_t index(int row, int column) const { return row * columns.size() + column; }
 
   std::string file_;
@@ -60,9 +65,9 @@ class NumberTable {
 };
 
 /// Reads a table of numbers. Throws InputError with every mistake (the first 20 of them) at file:line:column.
-NumberTable read_csv(const std::string& path);
+NumberTable read_csv(const std::string& path, EmptyCells empty = EmptyCells::mistakes);
 
 /// The same for a text; `name` stands for the file in messages.
-NumberTable parse_csv(std::string_view text, const std::string& name);
+NumberTable parse_csv(std::string_view text, const std::string& name, EmptyCells empty = EmptyCells::mistakes);
 
 }  // namespace galet

@@ -4,21 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "common/core/error.hpp"
 #include "common/io/files.hpp"
-
-extern char** environ;
+#include "common/io/program.hpp"
 
 namespace galet {
 
@@ -158,45 +151,13 @@ std::string script_text(const Figure& figure, const std::string& name) {
   return text + fmt::format("set output {}\nreplot\nset output\n", quote("./" + name + ".png"));
 }
 
-std::string read_to_end(int descriptor) {
-  std::string text;
-  std::array<char, 4096> block;
-  while (true) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count > 0)
-      text.append(block.data(), static_cast<std::size_t>(count));
-    else if (count == 0 || errno != EINTR)
-      return text;
-  }
-}
-
 /// Runs gnuplot on a script in `folder`. False when there is no gnuplot; throws RunError with what it printed when
 /// it fails.
 bool run_gnuplot(const std::string& folder, const std::string& script) {
-  std::array<int, 2> pipe_ends{};
-  if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("gnuplot: {}", std::strerror(errno)));
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
-  std::string program = "gnuplot", defaults = "-d", file = "./" + script;  // -d: a user's own settings stay out
-  std::array<char*, 4> arguments = {program.data(), defaults.data(), file.data(), nullptr};
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(pipe_ends[1]);
-  const std::string messages = error == 0 ? read_to_end(pipe_ends[0]) : "";
-  ::close(pipe_ends[0]);
-  if (error == ENOENT) return false;
-  if (error != 0) throw RunError(fmt::format("can't start gnuplot: {}", std::strerror(error)));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw RunError(fmt::format("gnuplot failed on '{}/{}': {}", folder, script, messages));
-  return true;
+  const ProgramEnd end = run_program({"gnuplot", "-d", "./" + script}, folder);  // -d: a user's own settings stay out
+  if (end.found && end.code != 0)
+    throw RunError(fmt::format("gnuplot failed on '{}/{}': {}", folder, script, end.messages));
+  return end.found;
 }
 
 }  // namespace

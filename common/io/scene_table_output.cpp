@@ -46,13 +46,14 @@ void add_output(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.output.frames; },
                   .range = at_least(0),
                   .doc = "states written over the run at equal intervals, besides the first"});
-  rows.push_back({.path = "output.formats",
-                  .target = [](Scene& s) -> FieldTarget { return &s.output.formats; },
-                  .choices = {"paraview", "xyz", "lammps"},
-                  .fallback = "[\"paraview\"]",
-                  .doc =
-                      "files of these states: `paraview`, grains, contacts and cell with a collection (.pvd) of each; "
-                      "`xyz`, extended XYZ (OVITO); `lammps`, text dumps"});
+  rows.push_back(
+      {.path = "output.formats",
+       .target = [](Scene& s) -> FieldTarget { return &s.output.formats; },
+       .choices = {"paraview", "hdf5", "xyz", "lammps"},
+       .fallback = "[\"paraview\"]",
+       .doc = "files of these states: `paraview`, grains, contacts and cell with a collection (.pvd) of each; "
+              "`hdf5`, a file of each and a trajectory of links to them (h5py); `xyz`, extended XYZ (OVITO); `lammps`, "
+              "text dumps"});
 }
 
 void add_guard(Rows& rows) {

@@ -18,6 +18,8 @@ void add_describe(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_solve(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_picture(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
 
 }  // namespace galet::cli

@@ -25,7 +25,7 @@ struct ExportArguments {
 };
 
 /// Formats that show a state, contacts included, and start no other run.
-bool is_state(const std::string& format) { return format == "paraview" || format == "xyz" || format == "dump"; }
+bool is_state(const std::string& format) { return format != "csv" && format != "lammps"; }
 
 template <int D>
 void write_sample(const ExportArguments& arguments, const std::string& path, const Sample<D>& sample) {
@@ -45,9 +45,11 @@ int export_sample(const ExportArguments& arguments) {
   with_dimension(scene.dimension, [&](auto dimension) {
     Simulation<dimension> simulation = Simulation<dimension>::resume(scene, archive);
     if (is_state(arguments.format)) {
-      const std::string stem = std::filesystem::path(path).replace_extension().string();
-      const auto files = write_state<dimension>(stem, arguments.format, simulation.engine().snapshot(),
-                                                simulation.engine().steps(), simulation.material());
+      std::string stem = std::filesystem::path(path).replace_extension().string();
+      // A state in HDF5 has the extension of the checkpoint, which it must not take the place of.
+      if (arguments.format == "hdf5" && arguments.out.empty()) stem += "_state";
+      const StateLabels labels{simulation.engine().steps(), simulation.material(), !scene.reduced_units};
+      const auto files = write_state<dimension>(stem, arguments.format, simulation.engine().snapshot(), labels);
       for (const std::string& file : files) fmt::print("wrote {}\n", file);
       return;
     }
@@ -69,9 +71,9 @@ void add_export(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--format", arguments->format,
-          "csv or lammps, a data file (both read again by initial.kind = \"packing\"); to look at: paraview, xyz "
-          "(extended XYZ) or dump (LAMMPS)")
-      ->check(CLI::IsMember({"csv", "lammps", "paraview", "xyz", "dump"}))
+          "csv or lammps, a data file (both read again by initial.kind = \"packing\"); to look at: paraview, hdf5, "
+          "xyz (extended XYZ) or dump (LAMMPS)")
+      ->check(CLI::IsMember({"csv", "lammps", "paraview", "hdf5", "xyz", "dump"}))
       ->capture_default_str();
   command->add_option(
       "--out", arguments->out,

@@ -109,17 +109,57 @@ RunControl control_of(const RunArguments& arguments, const Job& job, const std::
   return control;
 }
 
-/// Says on stderr how the run ended, when it didn't end well, and gives the exit code.
+/// What became of the files of a run's end.
+struct Written {
+  std::vector<std::string> files;
+  std::vector<std::string> problems;  ///< what could not be written, and why
+  std::string checkpoint, last_good;  ///< their paths; empty: not written
+};
+
+/// The state first, as it can't be had again; what one file lacks (a full disk) doesn't keep the others from being
+/// tried.
+template <int D>
+Written write_results(const RunResult& result, Simulation<D>& simulation, const Job& job, const FrameFiles& frames,
+                      const std::string& checkpoint_path, const std::string& last_good_path) {
+  Written written;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const RunError& error) {
+      written.problems.emplace_back(error.what());
+    }
+  };
+  attempt([&] {
+    if (result.ending != Ending::failed) {
+      write_checkpoint(checkpoint_path, simulation.checkpoint());
+      written.checkpoint = checkpoint_path;
+    } else if (result.last_good) {
+      write_checkpoint(last_good_path, *result.last_good);
+      written.last_good = last_good_path;
+    }
+  });
+  attempt([&] { written.files = write_run(result, simulation, job.title, job.directory); });
+  if (simulation.scene().output.frames > 0) {
+    const std::vector<std::string> opened = frames.opened();
+    written.files.insert(written.files.end(), opened.begin(), opened.end());
+  }
+  if (!written.checkpoint.empty()) written.files.push_back(written.checkpoint);
+  return written;
+}
+
+/// Says on stderr how the run ended, when it didn't end well, and gives the exit code. Paths that are empty were not
+/// written.
 int say_ending(const RunResult& result, const std::string& checkpoint_path, const std::string& last_good_path) {
   for (const std::string& note : result.notes) fmt::print(stderr, "note: {}\n", note);
   if (result.ending == Ending::interrupted) {
-    fmt::print(stderr, "galet: stopped after step {}; go on with: galet run --resume {}\n", result.steps,
-               checkpoint_path);
+    fmt::print(stderr, "galet: stopped after step {}", result.steps);
+    if (!checkpoint_path.empty()) fmt::print(stderr, "; go on with: galet run --resume {}", checkpoint_path);
+    fmt::print(stderr, "\n");
     return 1;
   }
   if (result.ending == Ending::failed) {
     fmt::print(stderr, "galet: {}\n", result.failure);
-    if (result.last_good) fmt::print(stderr, "galet: the last sound state is in {}\n", last_good_path);
+    if (!last_good_path.empty()) fmt::print(stderr, "galet: the last sound state is in {}\n", last_good_path);
     return 1;
   }
   return 0;
@@ -149,30 +189,23 @@ int run_job(const RunArguments& arguments, const Job& job) {
   catch_interrupts();
   ProgressLine line;
   RunControl control = control_of(arguments, job, checkpoint_path, line);
-  const FrameFiles frames(path_in(job.directory, engine), simulation.scene().output.formats, simulation.material());
+  const FrameFiles frames(path_in(job.directory, engine), simulation.scene().output.formats, simulation.material(),
+                          !simulation.scene().reduced_units);
   control.frame = [&](const Frame& frame) { frames.write(frame, simulation.engine().snapshot()); };
   const RunResult result = simulation.run(control);
   line.clear();
 
-  std::vector<std::string> files = write_run(result, simulation, job.title, job.directory);
-  if (simulation.scene().output.frames > 0) {
-    const std::vector<std::string> opened = frames.opened();
-    files.insert(files.end(), opened.begin(), opened.end());
-  }
-  if (result.ending != Ending::failed) {
-    write_checkpoint(checkpoint_path, simulation.checkpoint());
-    files.push_back(checkpoint_path);
-  } else if (result.last_good) {
-    write_checkpoint(last_good_path, *result.last_good);
-  }
+  const Written written = write_results(result, simulation, job, frames, checkpoint_path, last_good_path);
   if (arguments.json) {
     fmt::print("{}\n", to_json(result, job.title));
   } else {
     fmt::print("{}", summary(result));
-    for (const std::string& file : files) fmt::print("wrote {}\n", file);
+    for (const std::string& file : written.files) fmt::print("wrote {}\n", file);
   }
   std::fflush(stdout);
-  return say_ending(result, checkpoint_path, last_good_path);
+  for (const std::string& problem : written.problems) fmt::print(stderr, "galet: {}\n", problem);
+  const int code = say_ending(result, written.checkpoint, written.last_good);
+  return written.problems.empty() ? code : 1;
 }
 
 int run_scene(const RunArguments& arguments) {

@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 
 #include "common/core/error.hpp"
+#include "tests/support/checkpoint_mutations.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet {
@@ -153,6 +154,14 @@ TEST(Checkpoint, EveryFlippedBitIsRefused) {
     put_bytes(path, bad);
     EXPECT_NE(refusal(path), "") << "byte " << place;
   }
+}
+
+// All kinds of damage to a checkpoint of a run (tests/long takes 1e4 of them).
+TEST(Checkpoint, RandomDamageIsRefused) {
+  const test::DamageCounts counts = test::read_damaged_checkpoints(20000, 300);
+  for (const std::string& complaint : counts.complaints) ADD_FAILURE() << complaint;
+  EXPECT_EQ(counts.refused + counts.same, 300);
+  EXPECT_GT(counts.refused, 290);
 }
 
 std::uint64_t fnv(std::string_view bytes) {

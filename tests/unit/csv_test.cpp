@@ -101,5 +101,14 @@ TEST(Csv, MistakesHaveTheirPlace) {
   EXPECT_THROW(read_csv("/nonexistent/a.csv"), InputError);
 }
 
+TEST(Csv, EmptyCellsOfOwnTables) {
+  const NumberTable table = parse_csv("a,b\n1,\n,2\n", "t.csv", EmptyCells::not_a_number);
+  ASSERT_EQ(table.rows(), 2);
+  EXPECT_TRUE(std::isnan(table.at(0, 1)) && std::isnan(table.at(1, 0)));
+  EXPECT_EQ(table.at(1, 1), 2);
+  EXPECT_THROW(parse_csv("a,b\n1,\n", "t.csv"), InputError);
+  EXPECT_THROW(parse_csv("a,b\n1,x\n", "t.csv", EmptyCells::not_a_number), InputError);
+}
+
 }  // namespace
 }  // namespace galet

@@ -171,7 +171,8 @@ TEST(Vtk, IsReadByVtk) {
   if (python.empty()) GTEST_SKIP() << "python3-vtk9 is not installed: VTK did not read the files";
   const State state;
   const TemporaryFolder folder;
-  FrameFiles(folder.file("md"), {"paraview"}, state.sample.material).write(Frame{10, {0, 2.5}}, state.snapshot());
+  FrameFiles(folder.file("md"), {"paraview"}, state.sample.material)
+      .write(Frame{10, {0, 2.5}, {0, 10}}, state.snapshot());
   write_file(folder.file("read.py"), vtk_script);
   const std::string command =
       python + " " + folder.file("read.py") + " " + folder.path() + " > " + folder.file("said") + " 2>&1";
@@ -246,7 +247,7 @@ TEST(FrameFiles, CollectionsListWhatIsThere) {
   std::vector<double> times;
   for (int k = 0; k < 3; ++k) {
     times.push_back(0.5 * k);
-    files.write(Frame{5L * k, times}, state.snapshot());
+    files.write(Frame{5L * k, times, {}}, state.snapshot());
     for (const char* part : {"grains", "contacts", "cell"}) {
       std::string expected =
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "

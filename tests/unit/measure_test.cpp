@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/random.hpp"
+#include "common/measure/autocorrelation.hpp"
 #include "common/measure/block_average.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
@@ -240,6 +241,37 @@ TEST(BlockAverage, ErrorOfCorrelatedNoise) {
     // The series really has the error that the formula says: 60 repeats know it within 5 sigma = 46 %.
     EXPECT_NEAR(std::sqrt(squares) / exact, 1, 0.46) << "phi = " << phi;
   }
+}
+
+// x_k = phi x_(k-1) + noise: rho_k = phi^k, so that tau = 1/2 + phi / (1 - phi) = (1 + phi) / (2 (1 - phi)).
+TEST(AutocorrelationTime, OfCorrelatedNoise) {
+  const int length = 1 << 14, repeats = 40;
+  for (const double phi : {0.0, 0.5, 0.9, 0.97}) {
+    const double exact = (1 + phi) / (2 * (1 - phi));
+    double mean = 0;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      RandomStream random(12, repeat);
+      std::vector<double> series(length);
+      double x = random.normal();
+      for (double& value : series) {
+        value = x;
+        x = phi * x + std::sqrt(1 - phi * phi) * random.normal();
+      }
+      mean += autocorrelation_time(series) / repeats;
+    }
+    // Bias: the window of 5 tau leaves e^-5 = 0.7 % out, the mean of the series takes 2 tau / n = 0.4 % at most away.
+    // Noise: relative variance 2 (2 W + 1) / n with W = 5 tau (Madras and Sokal), over the repeats, 4 sigma.
+    const double noise = std::sqrt(2 * (10 * exact + 3) / length / repeats);
+    EXPECT_NEAR(mean / exact, 1, 0.012 + 4 * noise) << "phi = " << phi;
+  }
+}
+
+TEST(AutocorrelationTime, IsNothingWhereItCanNotBeKnown) {
+  EXPECT_TRUE(std::isnan(autocorrelation_time({})));
+  EXPECT_TRUE(std::isnan(autocorrelation_time(std::vector<double>(100, 0.25))));
+  std::vector<double> drift(200);
+  for (std::size_t k = 0; k < drift.size(); ++k) drift[k] = static_cast<double>(k);
+  EXPECT_TRUE(std::isnan(autocorrelation_time(drift)));
 }
 
 }  // namespace

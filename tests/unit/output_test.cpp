@@ -96,7 +96,7 @@ TEST_P(OutputOfEngines, MeasureOnlyWhatWasAskedFor) {
 
 TEST_P(OutputOfEngines, WriteWhatWasAskedFor) {
   Scene scene = shear_scene();
-  scene.output.measures = {"profile", "gaps", "indeterminacy", "voronoi", "forces", "moduli"};
+  scene.output.measures = {"profile", "directions", "gaps", "indeterminacy", "voronoi", "forces", "moduli"};
   scene.run.duration = 80;
   scene.run.samples = 200;
   Simulation<2> simulation(scene, GetParam());
@@ -112,6 +112,7 @@ TEST_P(OutputOfEngines, WriteWhatWasAskedFor) {
   EXPECT_TRUE(profile.find("I") && profile.find("shear_rate") && profile.find("T"));
   EXPECT_EQ(read_csv(folder.file(engine + "_gaps.csv")).rows(), gap_intervals + 1);
   EXPECT_EQ(read_csv(folder.file(engine + "_voronoi.csv")).rows(), 60);
+  EXPECT_EQ(read_csv(folder.file(engine + "_directions.csv"), EmptyCells::not_a_number).rows(), direction_sectors);
   EXPECT_EQ(read_csv(folder.file(engine + "_forces.csv")).rows(), 60);
   const auto json = nlohmann::json::parse(read_file(folder.file(engine + "_summary.json")));
   EXPECT_EQ(json["measures"]["indeterminacy"]["indeterminacy"], result.measures.indeterminacy->indeterminacy());
