@@ -62,6 +62,10 @@ class Monitor {
   }
   /// Whether the impulses have grown as they do where there is no solution.
   bool unbounded() const { return best_error_.impulse > 1e8 * best_error_.load; }
+  /// Whether the impulses have grown far above the load without meeting it.
+  bool growing() const {
+    return best_error_.impulse > 1e4 * best_error_.load && best_error_.miss > largest_miss * best_error_.load;
+  }
   bool out_of_time() const { return seconds() >= options_.seconds; }
   bool done() const { return reached() || out_of_time(); }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cd/discrete/contradiction.hpp"
 #include "cd/discrete/interior_point.hpp"
 #include "cd/discrete/iterations.hpp"
 #include "cd/discrete/proximal_newton.hpp"
@@ -23,12 +24,15 @@ constexpr int frozen_sweeps = 20;
 constexpr long endless = std::numeric_limits<long>::max();
 /// Rows up to which a factorisation of W costs no more than the sweeps that it may save.
 constexpr int most_factored_rows = 6000;
+/// Sweeps that look for a reason why there is no solution: after the first round that failed, and at the end.
+constexpr long early_search = 500, late_search = 20000;
 
 template <int B>
 class Solvers {
  public:
   using Vector = typename ScaledProblem<B>::Vector;
-  Solvers(const ScaledProblem<B>& problem, Monitor<B>& monitor) : problem_(problem), monitor_(monitor) {}
+  Solvers(const ScaledProblem<B>& problem, Monitor<B>& monitor, Contradiction<B>& contradiction)
+      : problem_(problem), monitor_(monitor), contradiction_(contradiction) {}
 
   bool gauss_seidel(long budget) { return exact("gs", {0, 0}, budget); }
   bool momentum(long budget) { return exact("ags", exact_momentum, budget); }
@@ -55,6 +59,7 @@ class Solvers {
     const bool bulk = problem_.diagonal && problem_.size() > 2000;
     if (bulk) return in_bulk();
     for (double budget = 1;; budget *= 2.5) {
+      if (budget > 1 && contradiction_.search(early_search) && contradiction_.none()) return false;
       const auto sweeps = [&](double count) { return static_cast<long>(count * budget); };
       if constexpr (B != 5)
         if (momentum(sweeps(300))) return true;
@@ -90,6 +95,7 @@ class Solvers {
 
   const ScaledProblem<B>& problem_;
   Monitor<B>& monitor_;
+  Contradiction<B>& contradiction_;
 };
 
 template <int B>
@@ -120,10 +126,12 @@ DiscreteSolution solve_blocks(const DiscreteProblem& given, const DiscreteOption
   const std::vector<double> zero(given.rows(), 0.0);
   std::vector<Vector> start = problem.scaled(options.start.empty() ? zero : options.start);
   Monitor<B> monitor(problem, options, std::move(start));
-  Solvers<B> solvers(problem, monitor);
+  Contradiction<B> contradiction(problem);
+  Solvers<B> solvers(problem, monitor, contradiction);
   const auto* method = std::find_if(std::begin(methods<B>), std::end(methods<B>),
                                     [&](const Named<B>& named) { return named.name == options.solver; });
   if (!monitor.done()) method->run(solvers);
+  if (!monitor.reached()) contradiction.search(late_search);
 
   DiscreteSolution solution;
   solution.r = problem.physical(monitor.best());
@@ -135,10 +143,15 @@ DiscreteSolution solve_blocks(const DiscreteProblem& given, const DiscreteOption
   solution.error = error.scaled, solution.siconos_error = error.siconos;
   solution.force_error = error.force, solution.violation = error.violation;
   solution.converged = monitor.reached();
-  solution.reason = monitor.reached()       ? "error reached"
-                    : monitor.unbounded()   ? "no solution"
-                    : monitor.out_of_time() ? "out of time"
-                                            : "stalled";
+  solution.reason = monitor.reached()                          ? "error reached"
+                    : contradiction.none()                     ? "no solution"
+                    : monitor.unbounded() || monitor.growing() ? "impulses without bound"
+                    : monitor.out_of_time()                    ? "out of time"
+                                                               : "stalled";
+  if (!monitor.reached()) {
+    solution.contradiction = contradiction.contacts();
+    solution.least_impulse = contradiction.least_impulse();
+  }
   solution.solver = monitor.best_solver();
   solution.iterations = monitor.iterations();
   solution.seconds = monitor.seconds();

@@ -33,9 +33,11 @@ struct DiscreteSolution {
   double force_error = 0;    ///< estimate of the relative error of r: |r - P_K(r - u^)| / |r|, scaled
   double violation = 0;      ///< largest -u_N (in units of u): what a gap would lose
   bool converged = false;
-  std::string reason;  ///< why it stopped: "error reached", "out of time", "stalled", or "no solution" where the
-                       ///< impulses grow without bound
-  std::string solver;  ///< whose iterate r is
+  std::string reason;  ///< why it stopped: "error reached", "out of time", "stalled", "impulses without bound", or "no
+                       ///< solution" where contacts close against each other (cd/discrete/contradiction.hpp)
+  std::vector<int> contradiction;  ///< those contacts
+  double least_impulse = 0;        ///< where it did not converge: no solution has |r| below this times |q|, scaled
+  std::string solver;              ///< whose iterate r is
   long iterations = 0;
   double seconds = 0;  ///< processor time, checks not counted
   std::vector<DiscreteHistory> history;

@@ -66,6 +66,12 @@ std::string text_of(const std::vector<Solved>& all) {
                fmt::format("{:.2e}", solution.violation), fmt::format("{}", solution.iterations),
                fmt::format("{:.3g} s", solution.seconds), solution.solver, solution.reason});
   std::string text = table.text();
+  for (const Solved& solved : all)
+    if (const std::vector<int>& closing = solved.solution.contradiction; !closing.empty())
+      text +=
+          fmt::format("\n{}: no solution; {} contact{} against each other whatever the impulses: {}\n", solved.file,
+                      closing.size(), closing.size() == 1 ? " closes" : "s close",
+                      fmt::join(closing.begin(), closing.begin() + std::min<std::size_t>(closing.size(), 10), ", "));
   for (const Solved& solved : all) {
     if (solved.solution.history.empty()) continue;
     TextTable history({solved.file, "iterations", "errS", "errP", "time"});
@@ -93,6 +99,8 @@ std::string json_of(const std::vector<Solved>& all) {
                                {"iterations", solution.iterations},
                                {"seconds", solution.seconds},
                                {"solver", solution.solver}};
+    if (!solution.converged) row["least_impulse"] = solution.least_impulse;
+    if (!solution.contradiction.empty()) row["contradiction"] = solution.contradiction;
     for (const cd::DiscreteHistory& at : solution.history)
       row["history"].push_back({{"seconds", at.seconds},
                                 {"solver", at.solver},

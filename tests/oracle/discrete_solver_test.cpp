@@ -265,6 +265,73 @@ TEST(DiscreteSolver, SaysWhyItStopped) {
   }
 }
 
+/// A disk of mass 1 between two planes at an angle alpha to their bisector (y), which close with speed 1 along x.
+DiscreteProblem wedge(double alpha, double mu) {
+  // Normals towards the disk, tangents (-n_y, n_x), the lever of the spin is the radius 1 (inertia 1/2).
+  Eigen::Matrix<double, 3, 4> h;
+  Eigen::Vector4d q;
+  for (const int side : {0, 1}) {
+    const Eigen::Vector2d n(side == 0 ? std::cos(alpha) : -std::cos(alpha), std::sin(alpha));
+    const Eigen::Vector2d t(-n.y(), n.x()), closing(side == 0 ? -1 : 1, 0);
+    h.col(2 * side) << n, 0;
+    h.col(2 * side + 1) << t, -1;
+    q.segment<2>(2 * side) << n.dot(closing), t.dot(closing);
+  }
+  const Eigen::Matrix4d w = h.transpose() * Eigen::Vector3d(1, 1, 2).asDiagonal() * h;
+  DiscreteProblem problem;
+  problem.block = 2;
+  problem.mu = {mu, mu};
+  problem.q.assign(q.data(), q.data() + 4);
+  for (int a = 0; a < 4; ++a) {
+    problem.start.push_back(4 * a);
+    for (int b = 0; b < 4; ++b) problem.column.push_back(b), problem.value.push_back(w(a, b));
+  }
+  problem.start.push_back(16);
+  return problem;
+}
+
+TEST(DiscreteSolver, WedgesJamBeyondTheFrictionAngle) {
+  const double alpha = 0.3;
+  DiscreteOptions options;
+  options.seconds = 0.3;
+  // Below: the disk leaves along y with v = cot(alpha), and 2 r_N (sin - mu cos) = v by momentum.
+  const DiscreteSolution leaves = solve(wedge(alpha, 0.9 * std::tan(alpha)), options);
+  ASSERT_TRUE(leaves.converged) << leaves.reason;
+  const double normal = 1 / std::tan(alpha) / (2 * (std::sin(alpha) - 0.9 * std::tan(alpha) * std::cos(alpha)));
+  // errS = 1e-8 on impulses of 50 that 1 - mu / tan(alpha) makes ten times as uncertain.
+  for (const int side : {0, 1}) EXPECT_NEAR(leaves.r[2 * side], normal, 1e-5 * normal);
+  const DiscreteSolution jams = solve(wedge(alpha, 1.1 * std::tan(alpha)), options);
+  EXPECT_FALSE(jams.converged);
+  EXPECT_EQ(jams.reason, "impulses without bound");
+  EXPECT_TRUE(jams.contradiction.empty());
+}
+
+TEST(DiscreteSolver, ContactsThatCloseAgainstEachOtherAreNamed) {
+  // Bodies 1 and 2 on a line between walls that both close (contacts 0, 1, 2), and a contact apart.
+  const double h[3][4] = {{1, -1, 0, 0}, {0, 1, -1, 0}, {0, 0, 0, 1}};
+  DiscreteProblem problem;
+  problem.block = 3;
+  problem.mu.assign(4, 0.3);
+  for (int a = 0; a < 12; ++a) {
+    problem.start.push_back(static_cast<std::int64_t>(problem.value.size()));
+    for (int c = 0; c < 4; ++c) {
+      double w = a % 3 > 0 && a / 3 == c ? 1 : 0;  // tangential motions are apart
+      for (int body = 0; body < 3 && a % 3 == 0; ++body) w += h[body][a / 3] * h[body][c];
+      if (w != 0) problem.column.push_back(3 * c + a % 3), problem.value.push_back(w);
+    }
+  }
+  problem.start.push_back(static_cast<std::int64_t>(problem.value.size()));
+  problem.q = {-1, 0, 0, 0.1, 0, 0, -1, 0, 0, -1, 0, 0};
+  DiscreteOptions options;
+  options.seconds = 0.5;
+  const DiscreteSolution solution = solve(problem, options);
+  EXPECT_EQ(solution.reason, "no solution");
+  EXPECT_EQ(solution.contradiction, (std::vector<int>{0, 1, 2}));
+  // q of the first three sums to -1.9: with walls that leave 0.1 there is room.
+  problem.q[3] = 2;
+  EXPECT_TRUE(solve(problem, options).converged);
+}
+
 TEST(DiscreteSolver, RefusesWhatIsNoProblem) {
   DiscreteProblem bad = unit_problem({-1, 0, 0}, 0.5);
   bad.mu[0] = -1;
