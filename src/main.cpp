@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   galet::cli::add_solve(app, action);
   galet::cli::add_export(app, action);
   galet::cli::add_reference(app, action);
+  galet::cli::add_verify(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -19,5 +19,6 @@ void add_check(CLI::App& app, Action& action);
 void add_solve(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
 
 }  // namespace galet::cli
