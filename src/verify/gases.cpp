@@ -74,15 +74,16 @@ void haff(EngineKind kind, int count, double phi, double duration, Report& repor
   const double n = count / trial.state().cell->volume(), g = contact_value<D>(phi);
   const double exact = (D == 2 ? 0.5 : 2.0 / 3) * (1 - e * e) * n * g * std::sqrt(pi * hot);
   const double found = (std::sqrt(hot / cold) - 1) / trial.time();
-  report.relative("1 / tau", found, exact, 0.05, "measured decays lie up to 5 % below Enskog's (references K6b)");
+  report.relative("1 / tau", found, exact, 0.05,
+                  "measured decays lie up to 5 % below Enskog's (Kawahara and Nakanishi 2004)");
   report.small("momentum per grain", momentum<D>(trial.state()).norm() / count, 1e-12, "rounding");
 }
 
 }  // namespace
 
 std::vector<Case> gas_cases() {
-  const std::string pressure = "energy kept; P = n T (1 + 2^(D-1) phi g), g of Henderson or Carnahan-Starling (K1, K2)";
-  const std::string cooling = "Haff's law with Enskog's collision rate (references K3, K5)";
+  const std::string pressure = "energy kept; P = n T (1 + 2^(D-1) phi g), g of Henderson or Carnahan-Starling";
+  const std::string cooling = "Haff's law with Enskog's collision rate (Haff 1983)";
   return {
       {.name = "elastic_gas_2d",
        .tags = {"gas", "restitution"},

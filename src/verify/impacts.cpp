@@ -267,7 +267,7 @@ void friction_10(EngineKind kind, Report& report) {
   gears.cd.dt = 1e-5;
   Trial<3> pair(report, kind, gears);
   pair.run_to(0.1);
-  report.near("spin of gears that mesh (references B7)", pair.state().spin[0].z(), 3, rigid ? 1e-10 : 1e-3,
+  report.near("spin of gears that mesh (Chung and Ooi 2011, test 7)", pair.state().spin[0].z(), 3, rigid ? 1e-10 : 1e-3,
               rigid ? "nothing slips" : "the turn of the normal in a contact");
 }
 
@@ -305,22 +305,21 @@ void two_grains(EngineKind kind, Report& report) {
 
 std::vector<Case> impact_cases() {
   const auto cradle_case = [](int balls) {
-    return Case{
-        .name = fmt::format("cradle_{}", balls),
-        .tags = {"impact", "cradle"},
-        .scene = fmt::format("{} elastic balls in a row that touch, hit by the first", balls),
-        .exact = "cd: Moreau's law, (2 - n)/n and 2/n (references T13); md: linear springs, by Runge-Kutta (T14)",
-        .trouble = "energy gained, balls that stick",
-        .run = [balls](EngineKind kind, Report& report) { cradle(kind, balls, report); }};
+    return Case{.name = fmt::format("cradle_{}", balls),
+                .tags = {"impact", "cradle"},
+                .scene = fmt::format("{} elastic balls in a row that touch, hit by the first", balls),
+                .exact = "cd: Moreau's law, (2 - n)/n and 2/n (Moreau 1988); md: linear springs, by Runge-Kutta",
+                .trouble = "energy gained, balls that stick",
+                .run = [balls](EngineKind kind, Report& report) { cradle(kind, balls, report); }};
   };
-  const std::string walton = "Walton's law: e, mu, e_T (references A9 to A11)";
+  const std::string walton = "Walton's law: e, mu, e_T (Walton 1993)";
   return {
       cradle_case(3),
       cradle_case(5),
       {.name = "cradle_gaps",
        .tags = {"impact", "cradle"},
        .scene = "5 elastic balls in a row with gaps",
-       .exact = "the last ball takes all (references T17)",
+       .exact = "the last ball takes all, impact by impact",
        .trouble = "speeds spread over the row",
        .run = cradle_with_gaps},
       {.name = "inelastic_chain",
@@ -340,7 +339,7 @@ std::vector<Case> impact_cases() {
        .tags = {"impact", "rest"},
        .effort = Effort::quick,
        .scene = "a ball dropped from 1 m, e = 0.5, until it rests after infinitely many bounces",
-       .exact = "geometric series, sqrt(2h/g) (1 + e)/(1 - e) (references T1)",
+       .exact = "geometric series, sqrt(2h/g) (1 + e)/(1 - e)",
        .trouble = "a ball that never stops, or gains height",
        .run = bouncing_ball},
       {.name = "restitution_0",
@@ -379,7 +378,7 @@ std::vector<Case> impact_cases() {
        .tags = {"friction"},
        .effort = Effort::quick,
        .scene = "mu = 10: a sphere on a slope of tan 5, and two spheres like gears",
-       .exact = "rolling, a = g sin / (1 + k) (references T4, B7)",
+       .exact = "rolling, a = g sin / (1 + k)",
        .trouble = "slip, a solver that does not converge",
        .run = friction_10},
       {.name = "two_grains",

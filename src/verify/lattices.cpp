@@ -124,7 +124,7 @@ std::vector<Case> lattice_cases() {
                 .tags = {"lattice", "threshold", "friction"},
                 .effort = effort,
                 .scene = "a triangular crystal under a growing stress across its rows, mu = 0, 0.1, 0.3 (" + what + ")",
-                .exact = "sigma_1/sigma_3 = sqrt 3 / tan(30 - atan mu) (references L4)",
+                .exact = "sigma_1/sigma_3 = sqrt 3 / tan(30 - atan mu) (Rowe 1962)",
                 .trouble = "failure too early (contacts lost), or strength beyond the limit",
                 .run = [cells, compliant](EngineKind kind, Report& report) {
                   lattice_strength(kind, cells, compliant, report);

@@ -56,10 +56,10 @@ void frictionless_packing(EngineKind kind, Report& report) {
   const Indeterminacy network = indeterminacy<2>(state, {.friction = false}, {Mat<2>::Identity()});
   if (kind == EngineKind::cd)
     report.near("force indeterminacy", static_cast<double>(network.indeterminacy()), 0, 0,
-                "rigid frictionless grains of unlike sizes are isostatic (references L7)");
+                "rigid frictionless grains of unlike sizes are isostatic (Roux 2000)");
   else
     report.small("force indeterminacy / contacts", static_cast<double>(network.indeterminacy()) / network.forces, 0.03,
-                 "contacts beyond isostaticity, z - 4 about 3 (kappa)^(-1/2) (references O4, O6)");
+                 "contacts beyond isostaticity, z - 4 about 3 (kappa)^(-1/2) (O'Hern et al. 2003)");
   report.relative("pressure", stress<2>(state).total().trace() / 2, 1, 1e-6, "asked for");
 }
 
@@ -202,7 +202,7 @@ std::vector<Case> packing_cases() {
        .tags = {"packing", "equilibrium"},
        .effort = Effort::full,
        .scene = "100 frictionless disks +-20 % under P = 1, until the unbalanced force is 1e-10",
-       .exact = "equilibrium; isostaticity of rigid frictionless grains (references L7)",
+       .exact = "equilibrium; isostaticity of rigid frictionless grains (Roux 2000)",
        .trouble = "a residue of forces that never falls, contacts too many or too few",
        .run = frictionless_packing},
       {.name = "kappa_1e7",

@@ -1,5 +1,5 @@
-// The registry of `galet verify`: names, selection, verdicts and outputs. (The cases themselves: tests/analytic and
-// tests/long.)
+// The registry of `galet verify`: names, selection, verdicts and outputs. (The cases themselves:
+// tests/verify/brief_cases_test.cpp and tests/long/verify_test.cpp.)
 #include <set>
 
 #include <gtest/gtest.h>
