@@ -16,9 +16,10 @@
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
 #   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
+#   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
-# Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
+# Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -26,7 +27,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile verify plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
@@ -54,6 +55,9 @@ for name in "${names[@]}"; do
     md_accuracy)
       speeds=benchmarks/results/lammps_speed/cases.csv
       if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
+    verify)
+      # A case that fails is a result too.
+      "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
     solver_profile)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"
@@ -68,4 +72,5 @@ for name in "${names[@]}"; do
   benchmarks/machine.sh >"$out/machine.txt"
 done
 benchmarks/validation.sh >docs/validation.md
-echo "wrote docs/validation.md"
+benchmarks/verification.sh >docs/verification.md
+echo "wrote docs/validation.md, docs/verification.md"

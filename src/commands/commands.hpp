@@ -21,5 +21,6 @@ void add_export(CLI::App& app, Action& action);
 void add_picture(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
 
 }  // namespace galet::cli
