@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   galet::cli::add_check(app, action);
   galet::cli::add_solve(app, action);
   galet::cli::add_export(app, action);
+  galet::cli::add_study(app, action);
   galet::cli::add_reference(app, action);
   try {
     app.parse(argc, argv);

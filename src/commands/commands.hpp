@@ -18,6 +18,7 @@ void add_describe(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_solve(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
 
 }  // namespace galet::cli
