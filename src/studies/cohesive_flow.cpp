@@ -84,7 +84,7 @@ Figure fraction_figure(const std::vector<StudyRow>& rows) {
 StudyRun cohesive_run(EngineKind engine, bool quick, double friction, double eta, double inertial_number) {
   ShearScene scene;
   scene.engine = engine;
-  scene.grains = quick ? 300 : 2000;
+  scene.grains = quick ? 200 : 2000;
   scene.friction = friction;
   scene.stiffness_level = stiffness;
   scene.inertial_number = inertial_number;

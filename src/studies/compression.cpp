@@ -75,7 +75,7 @@ std::vector<StudyRun> compression_plan(StudySize size) {
       for (const int seed : {1, 2, 3}) {
         SolidScene scene;
         scene.engine = engine;
-        scene.grains = quick ? 400 : 4000;
+        scene.grains = quick ? 300 : 4000;
         scene.seed = seed;
         scene.equilibrium = engine == EngineKind::md ? 1e-7 : 1e-6;
         scene.title = fmt::format("compression: {}, state {}, seed {}", engine_name(engine), state, seed);

@@ -102,10 +102,10 @@ StudyRun critical_run(EngineKind engine, int dimension, double friction, bool de
   ShearScene scene;
   scene.engine = engine;
   scene.dimension = dimension;
-  scene.grains = quick ? (dimension == 2 ? 300 : 400) : (dimension == 2 ? 2000 : 4000);
+  scene.grains = quick ? (dimension == 2 ? 200 : 300) : (dimension == 2 ? 2000 : 4000);
   scene.friction = friction;
   scene.stiffness_level = quick ? 3000 : 1e4;
-  scene.inertial_number = quick ? (dimension == 2 ? 4e-3 : 0.01) : 1e-3;
+  scene.inertial_number = quick ? (dimension == 2 ? 5e-3 : 0.02) : 1e-3;
   scene.strain = quick ? 5 : 10;
   scene.settling = 2;
   scene.dense_strain = dense ? 2 : 0;
@@ -144,7 +144,7 @@ StudyReport critical_state_report(const std::vector<StudyRow>& rows) {
   report.figures.push_back({"mu_star", friction_figure(rows, Observable::mu_star)});
   report.figures.push_back({"Phi", friction_figure(rows, Observable::solid_fraction)});
   report.remarks.emplace_back(
-      "sheared at I = 1e-3; the quick size at 4e-3 (2D) and 0.01 (3D), where mu* is above and Phi below the critical "
+      "sheared at I = 1e-3; the quick size at 5e-3 (2D) and 0.02 (3D), where mu* is above and Phi below the critical "
       "values "
       "by about 1.1 I and 0.4 I in 2D");
   return report;

@@ -101,14 +101,14 @@ Figure regime_figure(const std::vector<StudyRow>& rows) {
 
 std::vector<StudyRun> flow_kappa_plan(StudySize size) {
   const bool quick = size == StudySize::quick;
-  const std::vector<double> states = quick ? std::vector{0.03, 0.1} : std::vector{0.01, 0.03, 0.1, 0.2};
+  const std::vector<double> states = quick ? std::vector{0.1} : std::vector{0.01, 0.03, 0.1, 0.2};
   std::vector<double> levels = {softest, 200, 1e3, 1e4, 1e5};
   if (!quick) levels.push_back(2.5e5);
   std::vector<StudyRun> runs;
   const auto add = [&](EngineKind engine, double state, double level, bool rigid) {
     ShearScene scene;
     scene.engine = engine;
-    scene.grains = quick ? 300 : 2000;
+    scene.grains = quick ? 200 : 2000;
     scene.inertial_number = state;
     scene.strain = std::clamp(400 * state, 16.0, 40.0);
     scene.stiffness_level = level;

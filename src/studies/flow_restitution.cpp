@@ -81,11 +81,11 @@ std::vector<StudyRun> flow_restitution_plan(StudySize size) {
         for (const double inertial_number : states) {
           ShearScene scene;
           scene.engine = engine;
-          scene.grains = quick ? 300 : 2000;
+          scene.grains = quick ? 200 : 2000;
           scene.friction = friction;
           scene.restitution = restitution;
           scene.inertial_number = inertial_number;
-          scene.strain = std::clamp((quick ? 300 : 600) * inertial_number, 12.0, 80.0);
+          scene.strain = std::clamp((quick ? 200 : 600) * inertial_number, 12.0, 80.0);
           scene.settling = 4;
           const std::string state = plain_number(inertial_number);
           scene.title = fmt::format("flow-restitution: {}, mu = {:g}, e = {:g}, I = {}", engine_name(engine), friction,

@@ -16,6 +16,7 @@ constexpr std::string_view spread = "covers da Cruz et al. 2005, the same materi
 constexpr std::string_view agnolin = "Agnolin and Roux 2007";
 constexpr std::string_view about = "stated more finely, quoted as about: protocols and sizes differ";
 constexpr std::string_view rognon = "Roux and Chevoir 2010; Rognon et al. 2006";
+constexpr std::string_view gilabert = "Roux and Chevoir 2010; Gilabert et al. 2008";
 constexpr std::string_view chialvo = "Chialvo, Sun and Sundaresan 2012";
 constexpr std::string_view critical_digits = "jamming densities, fitted there: 0.5 %";
 constexpr std::string_view drawn = "printed as a statement";
@@ -103,6 +104,11 @@ constexpr std::array table = {
     Published{"triaxial.type_I", Claim::equal, 0, 0.05, chapter, "curves fall on one: 5 %"},
     Published{"triaxial.type_II", Claim::equal, 0, 0.05, chapter, "curves fall on one: 5 %"},
     Published{"triaxial.stiffer", Claim::at_least, 0, 0, chapter, drawn},
+    // Consolidation of cohesive disks.
+    Published{"consolidation.slope", Claim::at_most, 0, 0, gilabert, drawn},
+    Published{"consolidation.rolling", Claim::at_least, 0, 0, gilabert, drawn},
+    Published{"consolidation.looser", Claim::at_least, 0, 0, gilabert, drawn},
+    Published{"consolidation.unloading", Claim::at_most, 0.1, 0, gilabert, "\"little strain\": a tenth"},
 };
 
 }  // namespace

@@ -21,6 +21,8 @@ std::vector<StudyRun> critical_state_plan(StudySize size);
 StudyReport critical_state_report(const std::vector<StudyRow>& rows);
 std::vector<StudyRun> triaxial_plan(StudySize size);
 StudyReport triaxial_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> consolidation_plan(StudySize size);
+StudyReport consolidation_report(const std::vector<StudyRow>& rows);
 
 inline constexpr Study flow_law_study{
     "flow-law",
@@ -36,7 +38,7 @@ inline constexpr Study flow_law_study{
 inline constexpr Study flow_friction_study{"flow-friction",
                                            "Linear flow laws against the friction between grains",
                                            "Roux and Chevoir 2010, sec. 3.2 (da Cruz et al. 2005)",
-                                           "as flow-law, with mu = 0 to 0.8; lines fitted from I = 0.02 on",
+                                           "as flow-law, with mu = 0 to 0.8; lines fitted over 0.01 <= I <= 0.2",
                                            Observable::mu_star,
                                            flow_friction_plan,
                                            flow_friction_report};
@@ -101,5 +103,16 @@ inline constexpr Study triaxial_study{
     Observable::solid_fraction,
     triaxial_plan,
     triaxial_report};
+
+inline constexpr Study consolidation_study{
+    "consolidation",
+    "Consolidation curve of cohesive disks, and what a little rolling resistance does to it",
+    "Roux and Chevoir 2010, sec. 2.1 (Gilabert et al. 2007, 2008)",
+    "disks of diameters uniform in [0.67, 1.33] of their mean, mu = 0.5, constant attraction F0 of range 0.01 d, K_N d "
+    "/ F0 = 1e5; "
+    "a gas of solid fraction 0.4 aggregates, then P* = P d / F0 goes from 0.01 to 10 in steps and back",
+    Observable::solid_fraction,
+    consolidation_plan,
+    consolidation_report};
 
 }  // namespace galet

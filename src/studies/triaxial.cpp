@@ -162,7 +162,7 @@ std::vector<StudyRun> triaxial_plan(StudySize size) {
     for (const int seed : quick ? std::vector{1, 2} : std::vector{1, 2, 3}) {
       SolidScene scene;
       scene.engine = engine;
-      scene.grains = quick ? 400 : 4000;
+      scene.grains = quick ? 300 : 4000;
       scene.seed = seed;
       scene.friction = friction;
       scene.stiffness_level = level > 0 ? level : reference_level;

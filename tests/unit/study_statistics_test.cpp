@@ -45,7 +45,9 @@ TEST(StudyVerdict, TableHasASourceForEachNumber) {
     EXPECT_TRUE(keys.insert(number.key).second) << number.key;
     EXPECT_FALSE(number.source.empty()) << number.key;
     EXPECT_FALSE(number.basis.empty()) << number.key;
-    if (number.claim == Claim::equal) EXPECT_GT(number.uncertainty, 0) << number.key;
+    if (number.claim == Claim::equal) {
+      EXPECT_GT(number.uncertainty, 0) << number.key;
+    }
   }
   EXPECT_THROW(published("no such key"), std::invalid_argument);
 }

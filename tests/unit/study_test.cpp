@@ -80,7 +80,9 @@ TEST(StudyRegistry, PlansHaveDistinctNamesAndScenesThatCanBeRead) {
                   std::string::npos)
             << run.name;
         EXPECT_TRUE(hashes.insert(scene_hash(run)).second) << run.name << " is the scene of another run";
-        if (size == StudySize::quick) EXPECT_NO_THROW(parse_scene(run.scene, run.name)) << study.name;
+        if (size == StudySize::quick) {
+          EXPECT_NO_THROW(parse_scene(run.scene, run.name)) << study.name;
+        }
       }
       EXPECT_GT(names.size(), 1u);
     }
