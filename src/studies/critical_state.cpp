@@ -14,11 +14,12 @@ namespace galet {
 
 namespace {
 
+constexpr double rolling_example = 0.05;                 ///< mu_R / d
 constexpr double densest_2d = 0.85, densest_3d = 0.639;  ///< Phi* of random packings (chapter, fig. critiq)
 
 const StudyRow* state_of(const std::vector<StudyRow>& rows, EngineKind engine, int dimension, double friction,
                          bool dense) {
-  return row_with(rows, engine, {{"D", dimension}, {"mu", friction}, {"dense", dense ? 1.0 : 0.0}});
+  return row_with(rows, engine, {{"D", dimension}, {"mu", friction}, {"mu_R", 0}, {"dense", dense ? 1.0 : 0.0}});
 }
 
 void report_3d(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine) {
@@ -45,10 +46,17 @@ void report_2d(StudyReport& report, const std::vector<StudyRow>& rows, EngineKin
   report.add("Phi_c, 2D, mu = 0.4 minus 0.1" + of,
              value_of(reference, Observable::solid_fraction) - value_of(smooth, Observable::solid_fraction),
              "critical.falls");
+  const StudyRow* rolling = row_with(rows, engine, {{"D", 2}, {"mu", 0.4}, {"mu_R", rolling_example}});
+  report.add(fmt::format("mu*_c, 2D, mu_R/d = {:g} minus 0{}", rolling_example, of),
+             value_of(rolling, Observable::mu_star) - value_of(reference, Observable::mu_star),
+             "critical.rolling_grows");
+  report.add(fmt::format("Phi_c, 2D, mu_R/d = {:g} minus 0{}", rolling_example, of),
+             value_of(rolling, Observable::solid_fraction) - value_of(reference, Observable::solid_fraction),
+             "critical.rolling_falls");
 }
 
 void report_starts(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine) {
-  for (const StudyRow* dense : rows_with(rows, engine, {{"dense", 1}})) {
+  for (const StudyRow* dense : rows_with(rows, engine, {{"mu_R", 0}, {"dense", 1}})) {
     const double friction = dense->plan.parameter("mu");
     const int dimension = static_cast<int>(dense->plan.parameter("D"));
     const StudyRow* loose = state_of(rows, engine, dimension, friction, false);
@@ -83,7 +91,7 @@ Figure friction_figure(const std::vector<StudyRow>& rows, Observable observable)
   for (const int dimension : {2, 3})
     for (const EngineKind engine : {EngineKind::md, EngineKind::cd})
       for (const bool dense : {false, true}) {
-        const auto found = rows_with(rows, engine, {{"D", dimension}, {"dense", dense ? 1.0 : 0.0}});
+        const auto found = rows_with(rows, engine, {{"D", dimension}, {"mu_R", 0}, {"dense", dense ? 1.0 : 0.0}});
         if (found.empty()) continue;
         Series series =
             series_of(fmt::format("{}D, {}, from {}", dimension, engine_name(engine), dense ? "dense" : "loose"), found,
@@ -98,7 +106,7 @@ Figure friction_figure(const std::vector<StudyRow>& rows, Observable observable)
   return figure;
 }
 
-StudyRun critical_run(EngineKind engine, int dimension, double friction, bool dense, bool quick) {
+StudyRun critical_run(EngineKind engine, int dimension, double friction, double rolling, bool dense, bool quick) {
   ShearScene scene;
   scene.engine = engine;
   scene.dimension = dimension;
@@ -109,12 +117,14 @@ StudyRun critical_run(EngineKind engine, int dimension, double friction, bool de
   scene.strain = quick ? 5 : 10;
   scene.settling = 2;
   scene.dense_strain = dense ? 2 : 0;
-  const std::string state = fmt::format("{}D_mu_{:g}{}", dimension, friction, dense ? "_dense" : "");
+  if (rolling > 0) scene.material = fmt::format("rolling_friction = {}\n", rolling);
+  const std::string state = fmt::format("{}D_mu_{:g}{}{}", dimension, friction,
+                                        rolling > 0 ? fmt::format("_mu_R_{:g}", rolling) : "", dense ? "_dense" : "");
   scene.title = fmt::format("critical-state: {}, {}D, mu = {:g}, {} start, I = {}", engine_name(engine), dimension,
                             friction, dense ? "dense" : "loose", plain_number(scene.inertial_number));
   return {engine_name(engine) + "_" + state,
           engine,
-          {{"D", dimension}, {"mu", friction}, {"dense", dense ? 1 : 0}},
+          {{"D", dimension}, {"mu", friction}, {"mu_R", rolling}, {"dense", dense ? 1 : 0}},
           shear_scene(scene)};
 }
 
@@ -126,10 +136,11 @@ std::vector<StudyRun> critical_state_plan(StudySize size) {
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
     const std::vector<double> frictions_2d = quick ? std::vector{0.1, 0.4} : std::vector{0.0, 0.1, 0.2, 0.4, 0.8};
     const std::vector<double> frictions_3d = quick ? std::vector{0.0, 0.3} : std::vector{0.0, 0.1, 0.3, 0.5, 1.0};
-    for (const double friction : frictions_2d) runs.push_back(critical_run(engine, 2, friction, false, quick));
-    runs.push_back(critical_run(engine, 2, 0.4, true, quick));
-    for (const double friction : frictions_3d) runs.push_back(critical_run(engine, 3, friction, false, quick));
-    if (!quick) runs.push_back(critical_run(engine, 3, 0.3, true, quick));
+    for (const double friction : frictions_2d) runs.push_back(critical_run(engine, 2, friction, 0, false, quick));
+    runs.push_back(critical_run(engine, 2, 0.4, 0, true, quick));
+    runs.push_back(critical_run(engine, 2, 0.4, rolling_example, false, quick));
+    for (const double friction : frictions_3d) runs.push_back(critical_run(engine, 3, friction, 0, false, quick));
+    if (!quick) runs.push_back(critical_run(engine, 3, 0.3, 0, true, quick));
   }
   return runs;
 }

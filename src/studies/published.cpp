@@ -17,6 +17,7 @@ constexpr std::string_view agnolin = "Agnolin and Roux 2007";
 constexpr std::string_view about = "stated more finely, quoted as about: protocols and sizes differ";
 constexpr std::string_view rognon = "Roux and Chevoir 2010; Rognon et al. 2006";
 constexpr std::string_view gilabert = "Roux and Chevoir 2010; Gilabert et al. 2008";
+constexpr std::string_view estrada = "Roux and Chevoir 2010; Estrada et al. 2008";
 constexpr std::string_view chialvo = "Chialvo, Sun and Sundaresan 2012";
 constexpr std::string_view critical_digits = "jamming densities, fitted there: 0.5 %";
 constexpr std::string_view drawn = "printed as a statement";
@@ -87,6 +88,8 @@ constexpr std::array table = {
     Published{"critical.Phi_3D_1", Claim::equal, 0.581, 0.003, chialvo, critical_digits},
     Published{"critical.grows", Claim::at_least, 0, 0, chapter, drawn},
     Published{"critical.falls", Claim::at_most, 0, 0, chapter, drawn},
+    Published{"critical.rolling_grows", Claim::at_least, 0, 0, estrada, drawn},
+    Published{"critical.rolling_falls", Claim::at_most, 0, 0, estrada, drawn},
     Published{"critical.start_mu_star", Claim::equal, 0, 0.02, chapter, "\"independent of the initial state\": 2 %"},
     Published{"critical.start_Phi", Claim::equal, 0, 0.003, chapter,
               "\"independent of the initial state\": a tenth of what friction does"},
