@@ -58,10 +58,14 @@ average_from = 0.5
   if (state == 'D') return text + rest_stage("D", scene.equilibrium, "", "");
   text += rest_stage("A", scene.equilibrium, "friction = 0.0\n", "");
   if (state == 'A') return text;
-  // Agnolin and Roux open all contacts by a dilation of 0.5 % before they compress with friction.
+  // Agnolin and Roux open all contacts by a dilation of 0.5 % and mix the grains by elastic collisions before they
+  // compress with friction. Here fast shear to and fro, without friction and at that volume, does the mixing: grains
+  // that only move apart and back find most of their contacts again.
   text +=
       "\n[[stage]]\nname = \"loosening\"\nduration = 1\nloading = {kind = \"drives\"}\n"
-      "drive = [{component = \"isotropic\", rate = 0.005}]\n";
+      "drive = [{component = \"isotropic\", rate = 0.005}]\n"
+      "\n[[stage]]\nname = \"shaking\"\nfriction = 0.0\nduration = 20\ncycles = 5\nloading = {kind = \"drives\"}\n"
+      "drive = [{component = \"xy\", rate = 0.02}]\n";
   return text + rest_stage("C", scene.equilibrium, "", "");
 }
 
