@@ -1,5 +1,6 @@
 // Flow laws of cohesive disks: md with the published law of attraction, sqrt(4 K_N F0 h), and rigid grains with a
 // constant attraction F0 beside it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // Consolidation of cohesive disks in isotropic compression: 1/Phi against ln P*, without and with a little rolling
 // resistance, and unloading. Forces are in units of F0, so that P* = 1 / eta is the pressure itself.
+#include <algorithm>
 #include <array>
 #include <cmath>
 

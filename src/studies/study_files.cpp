@@ -1,6 +1,7 @@
 #include "src/studies/study_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 

@@ -1,5 +1,6 @@
 #include "src/studies/templates.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

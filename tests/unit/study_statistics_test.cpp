@@ -1,5 +1,6 @@
 // Verdicts, estimates and fits of the studies: closed forms, and synthetic data whose law and errors are known.
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 
