@@ -17,6 +17,8 @@
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
 #   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
+#   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
+#                    docs/reproduction.md; not among the default
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
@@ -29,6 +31,18 @@ bin=build/release
 names=("$@")
 [ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile verify plane_shear_2d)
 for name in "${names[@]}"; do
+  if [ "$name" = studies ]; then
+    size=--quick
+    [ "${GALET_STUDY_SIZE:-quick}" = full ] && size=
+    for study in $("$bin/src/galet" study --list | awk 'NR > 1 && NF == 0 { exit } NR > 1 { print $1 }'); do
+      out=benchmarks/results/studies/$study
+      "$bin/src/galet" study "$study" $size --jobs 2 --out "$out"
+      rm -f "$out"/*.png
+      benchmarks/machine.sh >"$out/machine.txt"
+    done
+    benchmarks/reproduction.sh >docs/reproduction.md
+    continue
+  fi
   out=benchmarks/results/$name
   mkdir -p "$out"
   echo "== $name"

@@ -1,14 +1,11 @@
 #include "src/compare.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <exception>
 #include <future>
 #include <map>
 #include <mutex>
-#include <numeric>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -26,31 +23,6 @@ namespace galet {
 namespace {
 
 constexpr int profile_layers = 20;
-
-/// Adds up what the rows have done, for one progress line.
-class SharedProgress {
- public:
-  SharedProgress(const CompareOptions& options, std::vector<double> costs)
-      : options_(options), costs_(std::move(costs)), shares_(costs_.size(), 0.0) {
-    total_ = std::accumulate(costs_.begin(), costs_.end(), 0.0);
-  }
-
-  void update(std::size_t row, double share) {
-    const std::lock_guard lock(mutex_);
-    shares_[row] = share;
-    const double now = wall_seconds();
-    if (!options_.progress || now - reported_ < 0.2) return;
-    reported_ = now;
-    const double done = std::inner_product(costs_.begin(), costs_.end(), shares_.begin(), 0.0) / total_;
-    options_.progress(done, done > 0 ? (now - start_) * (1 - done) / done : 0);
-  }
-
- private:
-  const CompareOptions& options_;
-  std::vector<double> costs_, shares_;
-  double total_ = 0, start_ = wall_seconds(), reported_ = 0;
-  std::mutex mutex_;
-};
 
 /// Start of the rows that share their engine parameters: the compressed gas, or why there is none.
 template <int D>
@@ -139,73 +111,31 @@ void draw(CompareRow& row, Simulation<D>& simulation) {
   }
 }
 
-/// The simulations of all rows: workers take them one by one, the longest first.
+/// The simulation of one row; `starts` are shared by all.
 template <int D>
-class Comparer {
- public:
-  Comparer(std::vector<CompareRow>& rows, const CompareOptions& options, std::vector<double> costs)
-      : rows_(rows), options_(options), order_(rows.size()), errors_(rows.size()), progress_(options, costs) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return costs[a] > costs[b]; });
+void run_row(CompareRow& row, Starts<D>& starts, const WorkControl& work) {
+  RunControl control;
+  control.keep_last_good = false;
+  control.stop = work.stop;
+  if (control.stop()) {
+    row.ending = Ending::interrupted;
+    return;
   }
-
-  void run() {
-    std::vector<std::jthread> workers;
-    const int count = std::clamp(options_.jobs, 1, static_cast<int>(rows_.size()));
-    for (int k = 0; k < count; ++k) workers.emplace_back([this] { work(); });
-    workers.clear();  // joins
-    for (const std::exception_ptr& error : errors_)
-      if (error) std::rethrow_exception(error);
+  const bool compressed = row.plan.scene.initial.kind == InitialKind::compressed_gas;
+  const Start<D>* start = compressed ? &starts.get(row.plan, control) : nullptr;
+  if (start && !start->sample) {
+    row.ending = start->failure.ending;
+    row.failure = start->failure.failure;
+    return;
   }
-
- private:
-  void work() {
-    for (std::size_t k = next_++; k < order_.size(); k = next_++) {
-      const std::size_t row = order_[k];
-      try {
-        run_row(rows_[row], row);
-      } catch (...) {
-        errors_[row] = std::current_exception();
-        abandoned_ = true;
-      }
-    }
-  }
-
-  void run_row(CompareRow& row, std::size_t index) {
-    RunControl control;
-    control.keep_last_good = false;
-    control.stop = [this] { return abandoned_ || (options_.stop && options_.stop()); };
-    if (control.stop()) {
-      row.ending = Ending::interrupted;
-      return;
-    }
-    const bool compressed = row.plan.scene.initial.kind == InitialKind::compressed_gas;
-    const Start<D>* start = compressed ? &starts_.get(row.plan, control) : nullptr;
-    if (start && !start->sample) {
-      row.ending = start->failure.ending;
-      row.failure = start->failure.failure;
-      return;
-    }
-    Simulation<D> simulation(row.plan.scene, row.plan.engine,
-                             start ? *start->sample : initial_sample<D>(row.plan.scene));
-    control.progress = [&](const Progress& at) {
-      progress_.update(index, static_cast<double>(at.step) / static_cast<double>(at.steps));
-    };
-    fill(row, simulation.run(control));
-    if (start && start->note) row.notes.push_back(*start->note);
-    progress_.update(index, 1);
-    if (row.plan.reference && row.usable()) draw(row, simulation);
-  }
-
-  std::vector<CompareRow>& rows_;
-  const CompareOptions& options_;
-  std::vector<std::size_t> order_;
-  std::vector<std::exception_ptr> errors_;
-  SharedProgress progress_;
-  Starts<D> starts_;
-  std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> abandoned_ = false;
-};
+  Simulation<D> simulation(row.plan.scene, row.plan.engine, start ? *start->sample : initial_sample<D>(row.plan.scene));
+  control.progress = [&](const Progress& at) {
+    work.progress(static_cast<double>(at.step) / static_cast<double>(at.steps));
+  };
+  fill(row, simulation.run(control));
+  if (start && start->note) row.notes.push_back(*start->note);
+  if (row.plan.reference && row.usable()) draw(row, simulation);
+}
 
 RigidLimit limit_of(const std::vector<const CompareRow*>& rows, Estimate CompareRow::*quantity, double power) {
   std::vector<MdRun> md;
@@ -241,7 +171,7 @@ std::vector<StateLimit> state_limits(const std::vector<CompareRow>& rows) {
   return limits;
 }
 
-Comparison compare(const Scene& scene, const CompareOptions& options) {
+Comparison compare(const Scene& scene, const SideBySideOptions& options) {
   Comparison comparison;
   const double start = wall_seconds();
   for (PlannedRow& plan : compare_plan(scene)) comparison.rows.emplace_back().plan = std::move(plan);
@@ -250,7 +180,9 @@ Comparison compare(const Scene& scene, const CompareOptions& options) {
     const GrainFacts facts = grain_facts(scene, initial_sample<D>(scene));
     std::vector<double> costs;
     for (const CompareRow& row : comparison.rows) costs.push_back(cost_guess(row.plan, facts));
-    Comparer<D>(comparison.rows, options, costs).run();
+    Starts<D> starts;
+    run_side_by_side(options, costs,
+                     [&](std::size_t row, const WorkControl& work) { run_row<D>(comparison.rows[row], starts, work); });
   });
 
   const auto any_md = [](const CompareRow& row) { return row.plan.engine == EngineKind::md; };

@@ -6,7 +6,6 @@
 // is no part of a row's cost.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "common/scene/scene.hpp"
 #include "src/rigid_limit.hpp"
 #include "src/run_result.hpp"
+#include "src/side_by_side.hpp"
 
 namespace galet {
 
@@ -70,13 +70,6 @@ struct Comparison {
   double wall_seconds = 0;
 };
 
-struct CompareOptions {
-  int jobs = 1;
-  /// Share of the work that is done, and the seconds that the rest will take at this pace.
-  std::function<void(double share, double seconds_left)> progress;
-  std::function<bool()> stop;
-};
-
 /// The rows of a comparison. A scene that says nothing about stiffness has cd rows only.
 std::vector<PlannedRow> compare_plan(const Scene& scene);
 
@@ -84,7 +77,7 @@ std::vector<PlannedRow> compare_plan(const Scene& scene);
 /// inertial number, two stiffness levels, two time steps, one tolerance, strain 30.
 Scene shortened(const Scene& scene);
 
-Comparison compare(const Scene& scene, const CompareOptions& options);
+Comparison compare(const Scene& scene, const SideBySideOptions& options);
 
 /// The limits of the usable rows, state by state (a part of compare()).
 std::vector<StateLimit> state_limits(const std::vector<CompareRow>& rows);

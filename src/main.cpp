@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   galet::cli::add_export(app, action);
   galet::cli::add_picture(app, action);
   galet::cli::add_report(app, action);
+  galet::cli::add_study(app, action);
   galet::cli::add_reference(app, action);
   galet::cli::add_verify(app, action);
   try {

@@ -19,24 +19,9 @@
 #include <span>
 
 #include "common/measure/block_average.hpp"
+#include "src/line_fit.hpp"
 
 namespace galet {
-
-struct LinePoint {
-  double x = 0;
-  Estimate y;
-};
-
-/// y = intercept + slope x.
-struct LineFit {
-  Estimate intercept;
-  Estimate slope;         ///< 0 +- 0 when all x are the same: then the intercept is the weighted mean
-  double chi_square = 0;  ///< sum of (residual / error)^2; 0 when the errors are unknown
-};
-
-/// Weighted least squares. When an error is unknown (0), all weights are 1 and the errors follow from the scatter
-/// about the line (0 when no point is left over to show one). Needs at least one point.
-LineFit fit_line(std::span<const LinePoint> points);
 
 struct MdRun {
   double stiffness_level = 0;  ///< kappa

@@ -116,6 +116,11 @@ std::string clause(const Figure& figure, std::size_t index, const std::string& d
   const std::size_t hidden = series.x.size() - drawable_count(figure, series);
   if (hidden > 0) title += fmt::format(" ({} off the axes)", hidden);
   const std::size_t look = index % colours.size();
+  if (series.band)
+    return fmt::format(
+        "{0} index {1} using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '{2}' fillstyle transparent solid 0.2 "
+        "noborder {3}, \\\n     {0} index {1} using 1:2 with lines linecolor rgb '{2}' linewidth 1.5 notitle",
+        quote(data), index, colours[look], title.empty() ? "notitle" : "title " + quote(title));
   return fmt::format("{} index {} using {} with {} linecolor rgb '{}' pointtype {} pointsize 0.7 linewidth 1.5 {}",
                      quote(data), index, errors ? "1:2:3" : "1:2", style, colours[look], shapes[look],
                      title.empty() ? "notitle" : "title " + quote(title));

@@ -12,6 +12,7 @@ struct Series {
   std::vector<double> x, y;
   std::vector<double> y_error;  ///< empty: no error bars
   bool line = false;            ///< joined by lines
+  bool band = false;            ///< a line without points in a band of +- y_error: what others have found
 };
 
 struct Figure {

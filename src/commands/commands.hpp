@@ -20,6 +20,7 @@ void add_solve(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_picture(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
 void add_reference(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 

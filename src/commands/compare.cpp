@@ -44,7 +44,7 @@ int compare_engines(const CompareArguments& arguments) {
   std::fflush(stdout);
 
   ProgressLine line;
-  CompareOptions options;
+  SideBySideOptions options;
   options.jobs = arguments.jobs;
   options.stop = interrupted;
   options.progress = [&](double share, double seconds_left) {

@@ -70,7 +70,7 @@ TEST(ComparePlan, ShortenedIsSmaller) {
 }
 
 TEST(Compare, RowsDontDependOnTheirNeighbours) {
-  CompareOptions options;
+  SideBySideOptions options;
   const Comparison alone = compare(small_scene(), options);
   options.jobs = 3;
   const Comparison together = compare(small_scene(), options);

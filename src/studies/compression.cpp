@@ -1,0 +1,104 @@
+// Isotropic compression of equal spheres: Phi, z* and rattlers of the states A, C and D, and how z* grows as kappa
+// falls, with the states that rigid grains (cd) come to beside them.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "src/engines.hpp"
+#include "src/studies/estimates.hpp"
+#include "src/studies/solid_templates.hpp"
+#include "src/studies/studies.hpp"
+#include "src/studies/templates.hpp"
+
+namespace galet {
+
+namespace {
+
+constexpr double first_level = 39000, last_level = 2000;
+constexpr std::array states = {'A', 'C', 'D'};
+
+/// Mean over the seeds of an observable at the end of a stage; its error is that of the scatter.
+Estimate at_stage(const std::vector<StudyRow>& rows, EngineKind engine, char state, const std::string& stage,
+                  Observable observable) {
+  std::vector<Estimate> values;
+  for (const StudyRow* row : rows_with(rows, engine, {{"state", state}}))
+    if (const StageReport* report = stage_of(*row, stage)) values.push_back({report->last[observable], 0});
+  return weighted_mean(values);
+}
+
+void report_state(StudyReport& report, const std::vector<StudyRow>& rows, char state) {
+  const std::string letter(1, state);
+  for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
+    const std::string of = fmt::format(", state {} ({})", state, engine_name(engine));
+    const auto at = [&](Observable observable) { return at_stage(rows, engine, state, letter, observable); };
+    report.add("Phi" + of, at(Observable::solid_fraction), "compression.Phi_" + letter);
+    report.add("z*" + of, at(Observable::z_star), "compression.z_star_" + letter);
+    report.add("share of rattlers" + of, at(Observable::rattler_fraction), "compression.rattlers_" + letter);
+  }
+  const std::string compressed = fmt::format("kappa {:g}", last_level);
+  const Estimate z_star = at_stage(rows, EngineKind::md, state, compressed, Observable::z_star);
+  if (state == 'A')
+    report.add("z* of A at kappa = 2000 over 39000, - 1",
+               ratio(z_star, at_stage(rows, EngineKind::md, 'A', "A", Observable::z_star)) - Estimate{1, 0},
+               "compression.growth_A");
+  else
+    report.add(fmt::format("z* of {} at kappa = 2000", state), z_star, "compression.z_star_2000");
+}
+
+Figure level_figure(const std::vector<StudyRow>& rows, Observable observable, const std::string& label) {
+  Figure figure{"Isotropic compression of spheres", "stiffness level kappa", label, true, false, {}};
+  for (const char state : states) {
+    Series series;
+    series.label = fmt::format("state {}", state);
+    series.line = true;
+    for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"state", state}}))
+      for (const StageReport& stage : row->run.stages) {
+        const bool rest = stage.name == std::string(1, state) || stage.name.starts_with("kappa");
+        if (!rest || row->plan.parameter("seed") != 1) continue;
+        series.x.push_back(stage.last[Observable::stiffness_level]);
+        series.y.push_back(stage.last[observable]);
+      }
+    if (!series.x.empty()) figure.series.push_back(series);
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<StudyRun> compression_plan(StudySize size) {
+  const bool quick = size == StudySize::quick;
+  const std::vector<double> levels =
+      quick ? std::vector{8400.0, last_level} : std::vector{18100.0, 8400.0, 3900.0, last_level, 1000.0};
+  std::vector<StudyRun> runs;
+  for (const EngineKind engine : {EngineKind::md, EngineKind::cd})
+    for (const char state : states)
+      for (const int seed : {1, 2, 3}) {
+        SolidScene scene;
+        scene.engine = engine;
+        scene.grains = quick ? 300 : 4000;
+        scene.seed = seed;
+        scene.equilibrium = engine == EngineKind::md ? 1e-7 : 1e-6;
+        scene.title = fmt::format("compression: {}, state {}, seed {}", engine_name(engine), state, seed);
+        std::string text = assembly_scene(scene, state);
+        if (engine == EngineKind::md) text += compression_stages(scene, levels);
+        runs.push_back({fmt::format("{}_{}_seed_{}", engine_name(engine), state, seed),
+                        engine,
+                        {{"state", state}, {"seed", seed}},
+                        text});
+      }
+  return runs;
+}
+
+StudyReport compression_report(const std::vector<StudyRow>& rows) {
+  StudyReport report;
+  for (const char state : states) report_state(report, rows, state);
+  report.figures.push_back({"z_star", level_figure(rows, Observable::z_star, "z*")});
+  report.figures.push_back({"rattlers", level_figure(rows, Observable::rattler_fraction, "share of rattlers")});
+  report.figures.push_back({"Phi", level_figure(rows, Observable::solid_fraction, "Phi")});
+  report.remarks.emplace_back(
+      "figures show seed 1; findings are means over the seeds, with the error of their scatter; "
+      "65, 67 and 68 stand for the states A, C and D in the tables");
+  return report;
+}
+
+}  // namespace galet

@@ -1,0 +1,142 @@
+// The stiffness level: from where on it stops to matter in md, the same compliance in cd, rigid grains as the limit,
+// and the states in the plane (Phi, I / sqrt(kappa)) of Campbell's regimes.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "src/engines.hpp"
+#include "src/rigid_limit.hpp"
+#include "src/studies/estimates.hpp"
+#include "src/studies/studies.hpp"
+#include "src/studies/templates.hpp"
+
+namespace galet {
+
+namespace {
+
+constexpr double softest = 40, enough = 1e3;
+
+const StudyRow* rigid_row(const std::vector<StudyRow>& rows, double state) {
+  return row_with(rows, EngineKind::cd, {{"I", state}, {"rigid", 1}});
+}
+
+double stiffest(const std::vector<StudyRow>& rows) {
+  const std::vector<double> levels = values_of(rows, "kappa");
+  return levels.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
+}
+
+void report_state(StudyReport& report, const std::vector<StudyRow>& rows, double state) {
+  const std::string where = fmt::format(", I = {:g}", state);
+  const auto md = [&](double level) { return row_with(rows, EngineKind::md, {{"I", state}, {"kappa", level}}); };
+  const double hard = stiffest(rows);
+  const Estimate one{1, 0};
+  for (const auto& [observable, name] : {std::pair{Observable::mu_star, "mu*"}, {Observable::solid_fraction, "Phi"}}) {
+    const Estimate limit = value_of(md(hard), observable);
+    for (const double level : {enough, 1e4})
+      report.add(fmt::format("{} at kappa = {:g} over {:g}, - 1{}", name, level, hard, where),
+                 ratio(value_of(md(level), observable), limit) - one, "kappa.none");
+    const Estimate soft = ratio(value_of(md(softest), observable), limit) - one;
+    report.add(fmt::format("|{} at kappa = 40 over {:g}, - 1|{}", name, hard, where),
+               {std::abs(soft.value), soft.error}, "kappa.visible");
+    std::vector<MdRun> levels;
+    for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"I", state}}))
+      if (row->plan.parameter("kappa") >= enough) levels.push_back({row->plan.parameter("kappa"), (*row)[observable]});
+    const auto extrapolated = md_limit(levels);
+    if (extrapolated)
+      report.add(fmt::format("{} of md for kappa to infinity over rigid cd, - 1{}", name, where),
+                 ratio(extrapolated->value, value_of(rigid_row(rows, state), observable)) - one, "flow.engines");
+    for (const StudyRow* row : rows_with(rows, EngineKind::cd, {{"I", state}})) {
+      const double level = row->plan.parameter("kappa");
+      if (!std::isfinite(level)) continue;
+      report.add(fmt::format("{} of compliant cd over md, - 1, kappa = {:g}{}", name, level, where),
+                 ratio((*row)[observable], value_of(md(level), observable)) - one, "kappa.compliant");
+    }
+  }
+}
+
+/// Observable against kappa, with the rigid grains as a band over the whole axis.
+Figure level_figure(const std::vector<StudyRow>& rows, Observable observable) {
+  const bool friction = observable == Observable::mu_star;
+  Figure figure{
+      "Effect of the stiffness of contacts", "stiffness level kappa", friction ? "mu*" : "Phi", true, false, {}};
+  for (const double state : values_of(rows, "I")) {
+    if (const StudyRow* rigid = rigid_row(rows, state)) {
+      const Estimate value = (*rigid)[observable];
+      figure.series.push_back({fmt::format("rigid cd, I = {:g}", state),
+                               {softest, stiffest(rows)},
+                               {value.value, value.value},
+                               {value.error, value.error},
+                               false,
+                               true});
+    }
+    for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
+      std::vector<const StudyRow*> levels;
+      for (const StudyRow* row : rows_with(rows, engine, {{"I", state}}))
+        if (std::isfinite(row->plan.parameter("kappa"))) levels.push_back(row);
+      if (levels.empty()) continue;
+      const std::string who = engine == EngineKind::md ? "md" : "compliant cd";
+      figure.series.push_back(series_of(fmt::format("{}, I = {:g}", who, state), levels, "kappa", observable));
+    }
+  }
+  return figure;
+}
+
+/// States by Phi and alpha = I / sqrt(kappa), each with its own kind of regime (Campbell 2002).
+Figure regime_figure(const std::vector<StudyRow>& rows) {
+  Figure figure{"States by solid fraction and rate", "Phi", "{/:Italic I} / sqrt(kappa)", false, true, {}};
+  for (const double state : values_of(rows, "I")) {
+    Series series;
+    series.label = fmt::format("I = {:g}", state);
+    for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"I", state}})) {
+      series.x.push_back((*row)[Observable::solid_fraction].value);
+      series.y.push_back(state / std::sqrt(row->plan.parameter("kappa")));
+    }
+    figure.series.push_back(series);
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<StudyRun> flow_kappa_plan(StudySize size) {
+  const bool quick = size == StudySize::quick;
+  const std::vector<double> states = quick ? std::vector{0.1} : std::vector{0.01, 0.03, 0.1, 0.2};
+  std::vector<double> levels = {softest, 200, 1e3, 1e4, 1e5};
+  if (!quick) levels.push_back(2.5e5);
+  std::vector<StudyRun> runs;
+  const auto add = [&](EngineKind engine, double state, double level, bool rigid) {
+    ShearScene scene;
+    scene.engine = engine;
+    scene.grains = quick ? 200 : 2000;
+    scene.inertial_number = state;
+    scene.strain = std::clamp(400 * state, 16.0, 40.0);
+    scene.stiffness_level = level;
+    scene.material = "viscous_convention = \"total\"\n";
+    scene.compliance = engine == EngineKind::cd && !rigid;
+    const std::string what = rigid ? "rigid" : "kappa_" + plain_number(level);
+    scene.title = fmt::format("flow-kappa: {}, {}, I = {:g}", engine_name(engine), what, state);
+    std::vector<std::pair<std::string, double>> parameters{{"I", state}};
+    parameters.emplace_back(rigid ? "rigid" : "kappa", rigid ? 1 : level);
+    runs.push_back(
+        {fmt::format("{}_{}_I_{:g}", engine_name(engine), what, state), engine, parameters, shear_scene(scene)});
+  };
+  for (const double state : states) {
+    for (const double level : levels) add(EngineKind::md, state, level, false);
+    for (const double level : {softest, 1e3, 1e4})
+      if (!quick || state >= 0.1) add(EngineKind::cd, state, level, false);
+    add(EngineKind::cd, state, 1e4, true);
+  }
+  return runs;
+}
+
+StudyReport flow_kappa_report(const std::vector<StudyRow>& rows) {
+  StudyReport report;
+  for (const double state : values_of(rows, "I")) report_state(report, rows, state);
+  report.figures.push_back({"mu_star", level_figure(rows, Observable::mu_star)});
+  report.figures.push_back({"Phi", level_figure(rows, Observable::solid_fraction)});
+  report.figures.push_back({"regimes", regime_figure(rows)});
+  return report;
+}
+
+}  // namespace galet

@@ -1,0 +1,118 @@
+// The studies, one file each.
+#pragma once
+
+#include "src/studies/study.hpp"
+
+namespace galet {
+
+std::vector<StudyRun> flow_law_plan(StudySize size);
+StudyReport flow_law_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> flow_friction_plan(StudySize size);
+StudyReport flow_friction_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> flow_restitution_plan(StudySize size);
+StudyReport flow_restitution_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> flow_kappa_plan(StudySize size);
+StudyReport flow_kappa_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> compression_plan(StudySize size);
+StudyReport compression_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> cohesive_flow_plan(StudySize size);
+StudyReport cohesive_flow_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> critical_state_plan(StudySize size);
+StudyReport critical_state_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> triaxial_plan(StudySize size);
+StudyReport triaxial_report(const std::vector<StudyRow>& rows);
+std::vector<StudyRun> consolidation_plan(StudySize size);
+StudyReport consolidation_report(const std::vector<StudyRow>& rows);
+
+inline constexpr Study flow_law_study{
+    "flow-law",
+    "Dilatancy and friction of sheared disks against the inertial number",
+    "Roux and Chevoir 2010, sec. 3.1 and 3.2 (da Cruz et al. 2005)",
+    "disks +-20 %, mu = 0.4, e = 0.1, K_T = K_N / 2, kappa = 1e4 (md) or rigid (cd); periodic cell, sheared at "
+    "constant "
+    "pressure, and once at the volume that the pressure gave. Published runs: rough walls.",
+    Observable::mu_star,
+    flow_law_plan,
+    flow_law_report};
+
+inline constexpr Study flow_friction_study{"flow-friction",
+                                           "Linear flow laws against the friction between grains",
+                                           "Roux and Chevoir 2010, sec. 3.2 (da Cruz et al. 2005)",
+                                           "as flow-law, with mu = 0 to 0.8; lines fitted over 0.01 <= I <= 0.2",
+                                           Observable::mu_star,
+                                           flow_friction_plan,
+                                           flow_friction_report};
+
+inline constexpr Study flow_restitution_study{
+    "flow-restitution",
+    "Effect of restitution on flows with and without friction, and the collisional limit",
+    "Roux and Chevoir 2010, sec. 3.2 (da Cruz 2004)",
+    "as flow-law, with e = 0.1 to 0.9, mu = 0 and 0.4; effects are ratios - 1 between the ends of the range",
+    Observable::mu_star,
+    flow_restitution_plan,
+    flow_restitution_report};
+
+inline constexpr Study flow_kappa_study{"flow-kappa",
+                                        "Effect of the stiffness of contacts, and the rigid limit",
+                                        "Roux and Chevoir 2010, sec. 3.2 (da Cruz 2004; Campbell 2002)",
+                                        "as flow-law, with kappa = 40 to 1e5 (2.5e5 in full size) in md, the same "
+                                        "compliance in cd, and rigid grains; contacts "
+                                        "are without attraction (viscous_convention = \"total\") in all of them",
+                                        Observable::mu_star,
+                                        flow_kappa_plan,
+                                        flow_kappa_report};
+
+inline constexpr Study compression_study{
+    "compression",
+    "Isotropic compression of spheres: coordination and rattlers of the states A, C and D",
+    "Roux and Chevoir 2010, sec. 2.1 (Agnolin and Roux 2007)",
+    "equal spheres, Hertz and Mindlin with nu = 0.3, kappa = 39000 at the first pressure, mu = 0.3 but for the "
+    "assembly of A; "
+    "three packings of each; rigid grains (cd) assembled the same way",
+    Observable::z_star,
+    compression_plan,
+    compression_report};
+
+inline constexpr Study cohesive_flow_study{
+    "cohesive-flow",
+    "Flow laws of cohesive disks against the cohesion number",
+    "Roux and Chevoir 2010, sec. 3.4 (Rognon et al. 2006, 2008)",
+    "as flow-law, kappa = 1e5, attraction sqrt(4 K_N F0 h) in md, constant attraction F0 between rigid grains in cd",
+    Observable::mu_star,
+    cohesive_flow_plan,
+    cohesive_flow_report};
+
+inline constexpr Study critical_state_study{
+    "critical-state",
+    "The critical state in simple shear against the friction of contacts",
+    "Roux and Chevoir 2010, sec. 2.3 (Peyneau and Roux 2008; Chialvo et al. 2012)",
+    "2D: disks +-20 %; 3D: equal spheres; linear law, kappa = 1e4 (quick size: 3000) or rigid; loose starts from a "
+    "gas, dense "
+    "ones from frictionless shear",
+    Observable::mu_star,
+    critical_state_plan,
+    critical_state_report};
+
+inline constexpr Study triaxial_study{
+    "triaxial",
+    "Triaxial compression of dense sphere packings: peaks, and strains of type I and II",
+    "Roux and Chevoir 2010, sec. 2.2",
+    "equal spheres, Hertz and Mindlin with nu = 0.3, kappa = 8400 and 39000, state A assembled without friction and "
+    "then given "
+    "mu, state C; axial strain at I = 5e-4 (quick size: 2e-3); rigid grains from state A beside them",
+    Observable::solid_fraction,
+    triaxial_plan,
+    triaxial_report};
+
+inline constexpr Study consolidation_study{
+    "consolidation",
+    "Consolidation curve of cohesive disks, and what a little rolling resistance does to it",
+    "Roux and Chevoir 2010, sec. 2.1 (Gilabert et al. 2007, 2008)",
+    "disks of diameters uniform in [0.67, 1.33] of their mean, mu = 0.5, constant attraction F0 of range 0.01 d, K_N d "
+    "/ F0 = 1e5; "
+    "a gas of solid fraction 0.4 aggregates, then P* = P d / F0 goes from 0.01 to 10 in steps and back",
+    Observable::solid_fraction,
+    consolidation_plan,
+    consolidation_report};
+
+}  // namespace galet

@@ -1,0 +1,82 @@
+#include "src/studies/templates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "src/engines.hpp"
+
+namespace galet {
+
+namespace {
+
+constexpr int rows_of_a_run = 400;
+
+/// Head, grains and material: what all scenes share.
+std::string head(const ShearScene& scene) {
+  const bool plane = scene.dimension == 2;
+  return fmt::format(R"(title = "{}"
+dimension = {}
+seed = 1
+units = "reduced"  # d = m = P = 1; the unit of time is the inertial time
+engine = "{}"
+
+[grains]
+count = {}
+diameter = {}
+mass = 1.0
+
+[material]
+friction = {}
+restitution = {}
+stiffness_level = {}
+tangential_stiffness_ratio = 0.5
+{}
+[initial]
+kind = "gas"
+solid_fraction = {}
+)",
+                     scene.title, scene.dimension, engine_name(scene.engine), scene.grains,
+                     plane ? R"({distribution = "uniform", mean = 1.0, spread = 0.2})" : "1.0", scene.friction,
+                     scene.restitution, scene.stiffness_level, scene.material, plane ? 0.5 : 0.3);
+}
+
+std::string stage(const std::string& name, double strain, double inertial_number, const std::string& more,
+                  const std::string& loading) {
+  return fmt::format(
+      "\n[[stage]]\nname = \"{}\"\nstrain = {}\n{}loading = {{kind = \"plane_shear\", inertial_number = {}{}}}\n", name,
+      strain, more, inertial_number, loading);
+}
+
+}  // namespace
+
+std::string plain_number(double value) {
+  if (value != 0 && (value < 0.01 || value >= 1e4)) {
+    const int exponent = static_cast<int>(std::floor(std::log10(value) + 1e-9));
+    return fmt::format("{:g}e{}", value / std::pow(10, exponent), exponent);
+  }
+  return fmt::format("{:g}", value);
+}
+
+std::string shear_scene(const ShearScene& scene) {
+  std::string text = head(scene);
+  const bool staged = scene.dense_strain > 0 || scene.volume_strain > 0;
+  text += "\n[loading]\npressure = 1.0\n";
+  if (!staged) text += fmt::format("kind = \"plane_shear\"\ninertial_number = {}\n", scene.inertial_number);
+  if (scene.engine == EngineKind::cd)
+    text += fmt::format("\n[cd]\ntolerance = 1e-3\n{}", scene.compliance ? "compliance = true\n" : "");
+  text += fmt::format("\n[run]\nsamples = {}\n", rows_of_a_run);
+  const double last = scene.volume_strain > 0 ? scene.volume_strain : scene.strain;
+  text += fmt::format("average_from = {:.6g}\n", scene.settling / last);
+  if (!staged) return text + fmt::format("strain = {}\n", scene.strain);
+  // Frictionless grains under shear pack densely whatever they came from, and the fast shear takes little time.
+  if (scene.dense_strain > 0)
+    text += stage("dense", scene.dense_strain, std::max(scene.inertial_number, 0.01), "friction = 0.0\n", "");
+  text += stage("pressure held", scene.strain, scene.inertial_number, "", "");
+  if (scene.volume_strain > 0)
+    text += stage("volume held", scene.volume_strain, scene.inertial_number, "", ", fixed_volume = true");
+  return text;
+}
+
+}  // namespace galet

@@ -1,0 +1,237 @@
+// Studies as a whole: the registry, rows that are kept and skipped, and a tiny study from its plan to its files.
+#include "src/studies/study.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/core/error.hpp"
+#include "common/io/scene_file.hpp"
+#include "src/studies/registry.hpp"
+#include "src/studies/row_file.hpp"
+#include "src/studies/run_study.hpp"
+#include "src/studies/study_files.hpp"
+#include "src/studies/templates.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace galet {
+namespace {
+
+ShearScene tiny_scene(EngineKind engine, double inertial_number) {
+  ShearScene scene;
+  scene.engine = engine;
+  scene.grains = 30;
+  scene.stiffness_level = 300;
+  scene.inertial_number = inertial_number;
+  scene.strain = 2;
+  scene.settling = 0.5;
+  return scene;
+}
+
+std::vector<StudyRun> tiny_plan(StudySize size) {
+  std::vector<StudyRun> runs;
+  for (const EngineKind engine : {EngineKind::md, EngineKind::cd})
+    for (const double state : {0.1, 0.2}) {
+      if (size == StudySize::quick && state > 0.1) continue;
+      const std::string name = (engine == EngineKind::md ? "md_" : "cd_") + plain_number(state);
+      runs.push_back({name, engine, {{"I", state}}, shear_scene(tiny_scene(engine, state)), engine == EngineKind::md});
+    }
+  return runs;
+}
+
+StudyReport tiny_report(const std::vector<StudyRow>& rows) {
+  StudyReport report;
+  report.add("mu* (md)", value_of(row_with(rows, EngineKind::md, {{"I", 0.1}}), Observable::mu_star),
+             "flow.mu_star_at_0.1", "a handful of grains");
+  report.add("mu* of no row", value_of(row_with(rows, EngineKind::md, {{"I", 7}}), Observable::mu_star),
+             "flow.mu_star_at_0.1");
+  report.figures.push_back({"mu_star",
+                            {"mu*",
+                             "I",
+                             "mu*",
+                             true,
+                             false,
+                             {series_of("md", rows_with(rows, EngineKind::md, {}), "I", Observable::mu_star)}}});
+  report.remarks.emplace_back("a remark");
+  return report;
+}
+
+const Study tiny{"tiny", "A tiny study", "nobody", "30 disks", Observable::mu_star, tiny_plan, tiny_report};
+
+StudyOptions options_in(const test::TemporaryFolder& folder) {
+  StudyOptions options;
+  options.directory = folder.path();
+  return options;
+}
+
+TEST(StudyRegistry, PlansHaveDistinctNamesAndScenesThatCanBeRead) {
+  std::set<std::string> studies;
+  for (const Study& study : all_studies()) {
+    EXPECT_TRUE(studies.insert(study.name).second);
+    EXPECT_EQ(&find_study(study.name), &study);
+    for (const StudySize size : {StudySize::quick, StudySize::full}) {
+      std::set<std::string> names, hashes;
+      for (const StudyRun& run : study.plan(size)) {
+        EXPECT_TRUE(names.insert(run.name).second) << run.name;
+        EXPECT_EQ(run.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-"),
+                  std::string::npos)
+            << run.name;
+        EXPECT_TRUE(hashes.insert(scene_hash(run)).second) << run.name << " is the scene of another run";
+        if (size == StudySize::quick) {
+          EXPECT_NO_THROW(parse_scene(run.scene, run.name)) << study.name;
+        }
+      }
+      EXPECT_GT(names.size(), 1u);
+    }
+    EXPECT_LE(study.plan(StudySize::quick).size(), study.plan(StudySize::full).size());
+  }
+}
+
+TEST(StudyRegistry, WithoutRowsEverythingIsOpen) {
+  for (const Study& study : all_studies()) {
+    const StudyReport report = study.evaluate({});
+    for (const Finding& finding : report.findings) EXPECT_EQ(finding.verdict, Verdict::open) << finding.quantity;
+  }
+}
+
+TEST(StudyRegistry, UnknownNameHasANearMatch) {
+  try {
+    find_study("flow_law");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"flow-law\"?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(StudyRegistry, CostGrowsWithSize) {
+  EXPECT_GT(estimate_study(tiny, StudySize::full).seconds, estimate_study(tiny, StudySize::quick).seconds);
+  EXPECT_EQ(estimate_study(tiny, StudySize::full).runs, 4);
+}
+
+TEST(StudyScenes, HoldWhatTheyAreAskedFor) {
+  ShearScene wanted = tiny_scene(EngineKind::cd, 1e-3);
+  wanted.friction = 0.7;
+  wanted.volume_strain = 4;
+  wanted.dense_strain = 1;
+  wanted.material = "cohesion_number = 2.0\n";
+  const Scene scene = parse_scene(shear_scene(wanted), "scene");
+  EXPECT_EQ(scene.engine, EngineKind::cd);
+  EXPECT_EQ(scene.material.friction, 0.7);
+  EXPECT_EQ(scene.material.cohesion_number, 2.0);
+  ASSERT_EQ(scene.stages.size(), 3u);
+  EXPECT_EQ(scene.stages[0].friction, 0.0);
+  EXPECT_EQ(scene.stages[0].loading.inertial_number, 0.01);
+  EXPECT_EQ(scene.stages[1].loading.inertial_number, 1e-3);
+  EXPECT_TRUE(scene.stages[2].loading.fixed_volume);
+  EXPECT_DOUBLE_EQ(scene.run.average_from, 0.125);
+  EXPECT_EQ(plain_number(0.1), "0.1");
+  EXPECT_EQ(plain_number(2e-3), "2e-3");
+  EXPECT_EQ(plain_number(2.5e5), "2.5e5");
+  EXPECT_EQ(plain_number(0), "0");
+}
+
+TEST(StudyRows, AreReadAsTheyWereWritten) {
+  const test::TemporaryFolder folder;
+  const StudyOutcome outcome = run_study(tiny, options_in(folder));
+  ASSERT_EQ(outcome.rows.size(), 4u);
+  for (const StudyRow& row : outcome.rows) {
+    ASSERT_TRUE(row.usable()) << row.run.failure;
+    const auto stored = read_row(folder.path(), row.plan);
+    ASSERT_TRUE(stored);
+    EXPECT_TRUE(stored->kept);
+    EXPECT_EQ((*stored)[Observable::mu_star].value, row[Observable::mu_star].value);
+    EXPECT_EQ((*stored)[Observable::mu_star].error, row[Observable::mu_star].error);
+    EXPECT_EQ((*stored)[Observable::inertial_number].value, row[Observable::inertial_number].value);
+    EXPECT_EQ(stored->run.state_hash, row.run.state_hash);
+    EXPECT_EQ(stored->run.cpu_seconds, row.run.cpu_seconds);
+    EXPECT_EQ(stored->run.last[Observable::solid_fraction], row.run.last[Observable::solid_fraction]);
+    if (!row.plan.keep_series) continue;
+    EXPECT_EQ(stored->run.series.column(Observable::sigma_xy), row.run.series.column(Observable::sigma_xy));
+  }
+}
+
+TEST(StudyRows, OfAnotherSceneOrAnEditedFileAreNotTaken) {
+  const test::TemporaryFolder folder;
+  StudyOptions options = options_in(folder);
+  options.size = StudySize::quick;
+  const StudyOutcome outcome = run_study(tiny, options);
+  StudyRun run = outcome.rows[0].plan;
+  EXPECT_TRUE(read_row(folder.path(), run));
+  StudyRun other = run;
+  other.scene += "# another text\n";
+  EXPECT_FALSE(read_row(folder.path(), other));
+  other = run;
+  other.engine = EngineKind::cd;
+  EXPECT_FALSE(read_row(folder.path(), other));
+  test::put_bytes(folder.file("rows/" + run.name + ".json"), "{\"scene_hash\": ");
+  EXPECT_FALSE(read_row(folder.path(), run));
+  test::put_bytes(folder.file("rows/" + run.name + ".json"), "{\"scene_hash\": \"" + scene_hash(run) + "\"}");
+  EXPECT_FALSE(read_row(folder.path(), run));
+}
+
+TEST(Study, StoppedGoesOnWithWhatIsMissing) {
+  const test::TemporaryFolder folder, whole_folder;
+  StudyOptions options = options_in(folder);
+  int asked = 0;
+  const StudyOutcome whole = run_study(tiny, options_in(whole_folder));
+  // Stops when two rows are there.
+  options.stop = [&] {
+    ++asked;
+    return std::filesystem::exists(folder.file("rows")) &&
+           std::distance(std::filesystem::directory_iterator(folder.file("rows")), {}) >= 2;
+  };
+  const StudyOutcome stopped = run_study(tiny, options);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_TRUE(stopped.failed());
+  EXPECT_EQ(stopped.rows.size(), 2u);
+  EXPECT_GT(asked, 2);
+  const StudyOutcome resumed = run_study(tiny, options_in(folder));
+  EXPECT_EQ(resumed.kept, 2);
+  EXPECT_FALSE(resumed.failed());
+  ASSERT_EQ(resumed.rows.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(resumed.rows[k].run.state_hash, whole.rows[k].run.state_hash);
+    EXPECT_EQ(resumed.rows[k][Observable::mu_star].value, whole.rows[k][Observable::mu_star].value);
+  }
+  StudyOptions fresh = options_in(folder);
+  fresh.fresh = true;
+  EXPECT_EQ(run_study(tiny, fresh).kept, 0);
+}
+
+TEST(Study, FromPlanToFiles) {
+  const test::TemporaryFolder folder;
+  StudyOptions options = options_in(folder);
+  options.jobs = 2;
+  const StudyOutcome outcome = run_study(tiny, options);
+  for (const std::string& file : write_study(tiny, outcome, folder.path())) EXPECT_TRUE(std::filesystem::exists(file));
+  for (const char* name : {"report.txt", "runs.csv", "findings.csv", "study.json", "mu_star.dat", "mu_star.gp",
+                           "scenes/md_0.1.toml", "rows/cd_0.2.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
+  const auto json = nlohmann::json::parse(study_json(tiny, outcome));
+  EXPECT_EQ(json["rows"].size(), 4u);
+  EXPECT_EQ(json["findings"][0]["published"], 0.37);
+  EXPECT_EQ(json["findings"][1]["verdict"], "-");
+  EXPECT_EQ(json["costs"].size(), 2u);  // both engines at both I
+  const std::string text = study_text(tiny, outcome);
+  EXPECT_NE(text.find("0.37 ±0.02"), std::string::npos);
+  EXPECT_NE(text.find("a handful of grains"), std::string::npos);
+  EXPECT_NE(text.find("remark: a remark"), std::string::npos);
+  // The echo of a scene is a scene.
+  EXPECT_EQ(read_scene(folder.file("scenes/md_0.1.toml")).grains.count, 30);
+}
+
+TEST(Study, CostAtEqualErrorDoesNotDependOnTheLengthOfARun) {
+  StudyRow row;
+  row.run.cpu_seconds = 10;
+  row.run.averages.values[static_cast<int>(Observable::mu_star)] = {0.4, 0.008};  // 2 %
+  EXPECT_DOUBLE_EQ(seconds_to_one_percent(row, Observable::mu_star), 40);
+  row.run.cpu_seconds = 40;  // four times as long, half the error
+  row.run.averages.values[static_cast<int>(Observable::mu_star)].error = 0.004;
+  EXPECT_DOUBLE_EQ(seconds_to_one_percent(row, Observable::mu_star), 40);
+}
+
+}  // namespace
+}  // namespace galet
