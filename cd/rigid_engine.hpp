@@ -229,6 +229,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     if constexpr (Y.friction) {
       start_.spin = bodies_.spin;
       start_.spin.resize(count, zero_spin<D>());
+      for (std::size_t p = 0; p < planes; ++p) start_.spin[grains + p] = bodies_.planes[p].spin;
       free_.spin = start_.spin;
     }
     predict_rigid(dt);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/measure_names.hpp"
 
 namespace galet {
@@ -25,7 +26,8 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
   exclusive("cd.dt", "cd.dt_factor");
   if (drawn) exclusive("cell.size", "initial.solid_fraction");
   idle(drawn, "initial.solid_fraction", "has no effect on listed grains and packings");
-  idle(drawn, "grains.diameter", "has no effect on listed grains and packings, which have their own");
+  idle(drawn || any_shape(scene), "grains.diameter",
+       "has no effect on listed grains and packings, which have their own");
   if (scene.grains.diameter.kind == SizeKind::discrete)
     idle(false, "grains.diameter.mean", "has no effect with distribution = \"discrete\"");
   if (drawn) needed_in_si("grains.diameter");

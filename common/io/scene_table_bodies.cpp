@@ -54,7 +54,7 @@ void add_mass(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().centre; },
                   .quantity = Quantity::length,
                   .fallback = "that of its grains' masses",
-                  .doc = "of mass: what `velocity` is of, and what it turns about"});
+                  .doc = "of mass: what `velocity` is of, and what it turns about; ring: needed, also the circle's"});
   rows.push_back(
       {.path = "body.inertia",
        .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().inertia; },
@@ -64,6 +64,43 @@ void add_mass(Rows& rows) {
        .doc = "moment of inertia about the centre; in 3D xx, yy, zz, xy, xz, yz of the tensor at the start"});
 }
 
+void add_shape(Rows& rows) {
+  rows.push_back({.path = "body.shape",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().shape; },
+                  .choices = {"listed", "wall", "ring"},
+                  .doc = "`listed`: its grains are the [[grain]] entries that name it; `wall`: a row of grains (3D: a "
+                         "square layer) across the whole cell; `ring`: grains on a circle about `centre` (3D: a stack "
+                         "of such circles along z, a rough cylinder)"});
+  rows.push_back({.path = "body.at",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().at; },
+                  .quantity = Quantity::length,
+                  .fallback = "wall: needed",
+                  .doc = "wall: coordinate of its grains' centres along `across`. Other grains are placed on the side "
+                         "of the cell's middle"});
+  rows.push_back({.path = "body.across",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().across; },
+                  .choices = {"x", "y", "z"},
+                  .doc = "wall: the direction that it stands across"});
+  rows.push_back({.path = "body.radius",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().radius; },
+                  .quantity = Quantity::length,
+                  .range = above(0),
+                  .fallback = "ring: needed",
+                  .doc = "ring: of the circle of its grains' centres"});
+  rows.push_back({.path = "body.grains",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().outside; },
+                  .choices = {"inside", "outside"},
+                  .doc = "ring: on which side other grains are placed"});
+  rows.push_back({.path = "body.spacing",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().spacing; },
+                  .range = above(0),
+                  .doc = "wall, ring: distance of neighbours in mean diameters, at least; they are spread evenly"});
+  rows.push_back({.path = "body.material",
+                  .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().material; },
+                  .fallback = "[material]",
+                  .doc = "wall, ring: name of the material of its grains"});
+}
+
 }  // namespace
 
 void add_bodies(Rows& rows) {
@@ -71,6 +108,7 @@ void add_bodies(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.bodies.back().name; },
                   .required = true,
                   .doc = "what its grains call it"});
+  add_shape(rows);
   add_translation(rows);
   add_rotation(rows);
   add_mass(rows);

@@ -90,6 +90,8 @@ NamedTime shortest_time(const Scene& scene, const Derived& derived) {
     if (plane.mass && plane.force != 0)
       consider(std::sqrt(d * *plane.mass / std::abs(plane.force)), "sqrt(d mass / force) of a plane");
   }
+  for (const CylinderSpec& cylinder : scene.cylinders)
+    if (surface_speed(cylinder) > 0) consider(d / surface_speed(cylinder), "d / speed of a cylinder's surface");
   for (const CellDrive& drive : scene.loading.drives)
     if (drive.rate && *drive.rate != 0) consider(1 / std::abs(*drive.rate), "1/rate of a drive");
   for (const PairLaw& law : derived.laws.pairs)
@@ -134,6 +136,12 @@ void add_body_facts(const Scene& scene, const Sample<D>& sample, GrainFacts& fac
 }
 
 }  // namespace
+
+double surface_speed(const CylinderSpec& cylinder) {
+  double square = 0;
+  for (const double component : cylinder.velocity) square += component * component;
+  return std::sqrt(square) + std::abs(cylinder.spin) * cylinder.radius;
+}
 
 template <int D>
 GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample) {
