@@ -352,7 +352,7 @@ class SoftEngine final : public Engine<Y.dim> {
     list_bound_.set(0);
     fetch_positions();
     std::swap(contacts_, carried_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.group);
     contacts_.carry(carried_, list_, bodies_.grains());
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();

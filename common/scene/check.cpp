@@ -8,6 +8,7 @@
 
 #include "common/core/near_match.hpp"
 #include "common/core/types.hpp"
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/check_report.hpp"
 #include "common/scene/size_distribution.hpp"
 
@@ -44,7 +45,8 @@ void check_count(Report& report) {
   const int count = scene.grains.count;
   const auto listed = scene.grains.listed.size();
   if (drawn(scene.initial.kind) && listed == 0)
-    report.rule(count > 0, "grains.count", "grains.count is needed: the number of grains", {"initial.kind", "grain"});
+    report.rule(count > 0 || any_shape(scene), "grains.count", "grains.count is needed: the number of grains",
+                {"initial.kind", "grain", "body"});
   if (scene.initial.kind == InitialKind::packing || scene.initial.kind == InitialKind::checkpoint)
     report.rule(count == 0, "grains.count",
                 fmt::format("grains.count follows from the {}: leave it out",

@@ -129,6 +129,7 @@ void set_random_velocities(const Scene& scene, Sample<D>& sample) {
     momentum += sample.mass[i] * sample.velocity[i];
     mass += sample.mass[i];
   }
+  if (mass == 0) return;  // clumps only
   for (Vec<D>& velocity : sample.velocity) velocity -= momentum / mass;
 }
 
@@ -206,7 +207,8 @@ void place_on_lattice(const Scene& scene, Sample<D>& sample) {
 /// Refuses grains that overlap by more than the given share of R_i + R_j (those of one body may), or that cross a plane
 /// as far.
 template <int D>
-void refuse_overlaps(const Sample<D>& sample, double share) {
+void refuse_overlaps(const Scene& scene, const Sample<D>& sample, double share) {
+  const std::vector<int> group = contact_groups(scene, sample.body);
   const double largest = *std::max_element(sample.radius.begin(), sample.radius.end());
   const Vec<D> width = face_distances<D>(sample.cell.box);
   for (int a = 0; a < D; ++a)
@@ -216,9 +218,7 @@ void refuse_overlaps(const Sample<D>& sample, double share) {
                       width[a], a + 1, 2 * largest));
   PlacementGrid<D> grid(sample.cell, 2 * largest, sample.count());
   for (int i = 0; i < sample.count(); ++i) {
-    const auto glued = [&](int j) {
-      return !sample.body.empty() && sample.body[i] >= 0 && sample.body[j] == sample.body[i];
-    };
+    const auto glued = [&](int j) { return !group.empty() && group[i] >= 0 && group[j] == group[i]; };
     const int other = grid.touched(sample.position[i], sample.radius[i], 1 - share, glued);
     if (other >= 0) throw InputError(fmt::format("grains {} and {} overlap", other + 1, i + 1));
     const int plane = crossed_plane<D>(sample.planes, sample.position[i], sample.radius[i] * (1 - share));
@@ -240,11 +240,18 @@ void wrap_positions(Sample<D>& sample) {
 
 /// A gas or a dense packing, whose grains are numbered along a curve through the cell.
 template <int D>
-void place_at_random(const Scene& scene, Sample<D>& sample, const Obstacles<D>& obstacles) {
+void place_at_random(const Scene& scene, Sample<D>& sample, GluedGrains<D>& glued) {
   std::vector<Plane<D>> bounds = sample.planes;
   for (const Plane<D>& bound : shape_bounds<D>(scene, sample.cell)) bounds.push_back(bound);
+  // Clumps take the room of their enclosing spheres.
+  const std::vector<UnplacedClump> clumps = unplaced_clumps(scene);
+  std::vector<double> radii = sample.radius;
+  for (const UnplacedClump& clump : clumps) radii.push_back(clump.radius);
   const auto place = scene.initial.kind == InitialKind::dense ? dense_packing<D> : random_insertion<D>;
-  const std::vector<Vec<D>> position = place(sample.cell, bounds, sample.radius, scene.seed, obstacles);
+  std::vector<Vec<D>> position = place(sample.cell, bounds, radii, scene.seed, glued);
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    add_clump<D>(scene, clumps[k], position[sample.position.size() + k], glued);
+  position.resize(sample.position.size());
   const std::vector<int> order = spatial_order<D>(sample.cell, position);
   const std::vector<double> radius = sample.radius;
   for (int k = 0; k < sample.count(); ++k) {
@@ -293,14 +300,14 @@ void append_glued(const GluedGrains<D>& glued, Sample<D>& sample) {
 /// A lattice, a gas or a dense packing; grains of bodies come last.
 template <int D>
 Sample<D> drawn_sample(const Scene& scene) {
-  if (scene.grains.count < 1) throw InputError("grains.count must be at least 1");
+  if (scene.grains.count < 1 && !any_shape(scene)) throw InputError("grains.count must be at least 1");
   Sample<D> sample;
   sample.resize(scene.grains.count);
   const std::vector<double> diameters = draw_diameters(scene, scene.grains.count);
   for (int i = 0; i < sample.count(); ++i) sample.radius[i] = diameters[i] / 2;
   sample.cell = initial_cell<D>(scene, sample.solid_volume());
   sample.planes = scene_planes<D>(scene);
-  const GluedGrains<D> glued = glued_grains<D>(scene, sample.cell);
+  GluedGrains<D> glued = glued_grains<D>(scene, sample.cell);
   if (scene.initial.kind == InitialKind::lattice)
     place_on_lattice<D>(scene, sample);
   else
@@ -309,7 +316,7 @@ Sample<D> drawn_sample(const Scene& scene) {
   if (!scene.bodies.empty()) {
     append_glued<D>(glued, sample);
     wrap_positions<D>(sample);
-    refuse_overlaps<D>(sample, listed_overlap);
+    refuse_overlaps<D>(scene, sample, listed_overlap);
   }
   set_masses<D>(scene, sample);
   if (scene.initial.speed > 0) set_random_velocities<D>(scene, sample);
@@ -369,7 +376,7 @@ Sample<D> listed_sample(const Scene& scene) {
     append_glued<D>(glued, sample);
   }
   wrap_positions<D>(sample);
-  refuse_overlaps<D>(sample, listed_overlap);
+  refuse_overlaps<D>(scene, sample, listed_overlap);
   set_masses<D>(scene, sample);
   move_with_bodies<D>(scene, sample);
   return sample;
@@ -395,7 +402,7 @@ Sample<D> packing_sample(const Scene& scene) {
   if (!scene.cell.periodic.empty()) sample.cell.periodic = periodicity<D>(scene);
   sample.planes = scene_planes<D>(scene);
   wrap_positions<D>(sample);
-  refuse_overlaps<D>(sample, packing_overlap);
+  refuse_overlaps<D>(scene, sample, packing_overlap);
   assign_materials<D>(scene, sample);
   if (!file.has_mass || scene.grains.density || scene.grains.mass) set_masses<D>(scene, sample);
   return sample;

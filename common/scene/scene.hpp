@@ -158,7 +158,9 @@ struct CylinderSpec {
 enum class BodyShape {
   listed,  ///< the [[grain]] entries that name it
   wall,    ///< a row or layer across the cell
-  ring     ///< a circle, or a stack of circles along z
+  ring,    ///< a circle, or a stack of circles along z
+  chain,   ///< a few grains in line
+  polygon  ///< a few grains at the corners of a regular polygon
 };
 
 /// A rigid body made of the listed grains that name it, or of grains that its shape says: a clump, a rough wall, a
@@ -179,8 +181,15 @@ struct BodySpec {
   Axis across = Axis::y;                 ///< wall: the direction that it stands across
   std::optional<double> radius = {};     ///< ring: of the circle of its grains' centres
   bool outside = false;                  ///< ring: free grains are placed around it, not in it
-  double spacing = 1;                    ///< wall, ring: least distance of neighbours, in mean diameters
-  std::string material = {};             ///< wall, ring: of its grains
+  double spacing = 1;                    ///< wall, ring: least distance of neighbours, in mean diameters; chain,
+                                         ///< polygon: their distance in diameters of its grains, which are equal
+  std::string material = {};             ///< of the grains of a shape
+  int size = 0;                          ///< chain, polygon: number of grains
+  int copies = 1;                        ///< chain, polygon: number of such bodies, placed and turned at random
+  std::vector<double> guide = {};        ///< moves freely along this direction only; empty: as `free` says
+  int segments = 0;                      ///< ring: > 0: so many bodies, each free along its radius
+  std::optional<double> pressure = {};   ///< ring of segments: presses each on the grains
+  int segment = 0;                       ///< ring of segments: which one this is, once there is a body for each
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
