@@ -366,8 +366,7 @@ std::optional<Ending> Simulation<D>::take_sample(Pace& pace) {
     const long first = course_.first_step(), length = course_.last_step() - first;
     if (scale_.asked.has(MeasureKind::profile) && course_.is_last() &&
         static_cast<double>(engine_->steps() - first) > scene_.run.average_from * static_cast<double>(length))
-      profile_.add(layer_profile(engine_->snapshot(), scene_.output.profile_layers,
-                                 static_cast<int>(scene_.output.profile_direction)));
+      profile_.add(scene_profile(scene_, engine_->snapshot()));
     if (pace.copy_due()) keep_last_good();
   }
   const double interval = schedule_.steps_per_sample * engine_->dt();

@@ -32,7 +32,8 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
     idle(false, "grains.diameter.mean", "has no effect with distribution = \"discrete\"");
   if (drawn) needed_in_si("grains.diameter");
   if (!MeasureSet(scene.output.measures).has(MeasureKind::profile))
-    for (const char* path : {"output.profile_layers", "output.profile_direction"})
+    for (const char* path :
+         {"output.profile_layers", "output.profile_direction", "output.profile_centre", "output.profile_radii"})
       if (written(path))
         findings.push_back({path, fmt::format("{} needs \"profile\" in output.measures", path), {"output.measures"}});
   for (std::size_t k = 0; k < scene.grains.listed.size(); ++k) needed_in_si(fmt::format("grain[{}].diameter", k));

@@ -282,11 +282,13 @@ struct StageSpec : EndSpec {
 
 /// What a run measures and writes beyond the series of every run. Nothing of it changes the state that is reached.
 struct OutputSpec {
-  std::vector<std::string> measures;      ///< names of measure_names.hpp
-  int profile_layers = 20;                ///< of the measure "profile"
-  Axis profile_direction = Axis::y;       ///< the cell vector across which it goes
-  int frames = 0;                         ///< states written over the run, besides the first; 0: none
-  std::vector<std::string> formats = {};  ///< of frames: "paraview", "xyz", "lammps"; empty: paraview
+  std::vector<std::string> measures;        ///< names of measure_names.hpp
+  int profile_layers = 20;                  ///< of the measure "profile"
+  Axis profile_direction = Axis::y;         ///< the cell vector across which it goes
+  std::vector<double> profile_centre = {};  ///< of rings, in place of layers; empty: layers
+  std::vector<double> profile_radii = {};   ///< the innermost and the outermost one of the rings
+  int frames = 0;                           ///< states written over the run, besides the first; 0: none
+  std::vector<std::string> formats = {};    ///< of frames: "paraview", "xyz", "lammps"; empty: paraview
 };
 
 /// When a run is stopped because its state is no longer sound (src/guard.hpp).
