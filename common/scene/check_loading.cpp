@@ -135,9 +135,9 @@ void check_gravity(Report& report, const Part& part) {
   if (gravity.size() != static_cast<std::size_t>(scene.dimension)) return;
   for (std::size_t a = 0; a < gravity.size(); ++a)
     report.rule(gravity[a] == 0 || !is_periodic(scene, a), path,
-                fmt::format("{}: {} is a periodic direction, in which grains would fall forever; set "
-                            "cell.periodic to false there",
-                            path, axis(a)),
+                fmt::format("{}: {} is a periodic direction, in which grains would fall forever; set cell.periodic to "
+                            "false there{}",
+                            path, axis(a), a == 0 ? ", or turn gravity by " + part.in_loading("inclination") : ""),
                 {"cell.periodic", "dimension"});
 }
 
