@@ -65,7 +65,7 @@ TEST(InclinedPlaneFlow, HasTheStressRatioOfTheSlopeCd) { check_inclined_plane(En
 void check_annulus(EngineKind kind) {
   SCOPED_TRACE(to_string(kind));
   Scene scene = parse_scene(R"(
-grains = {count = 245, diameter = {distribution = "uniform", mean = 1, spread = 0.2}}
+grains = {count = 272, diameter = {distribution = "uniform", mean = 1, spread = 0.2}}
 material = {friction = 0.4, restitution = 0.1, stiffness_level = 1e3}
 initial.kind = "dense"
 cell = {size = [26, 26], periodic = [false, false]}
