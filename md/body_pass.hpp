@@ -77,7 +77,7 @@ class BodyPass {
   void shift(const Bodies<Y>& bodies, const Mat<D>& rate_change, const Vec<D>& gravity_change) {
     for (std::size_t b = 0; b < motion_.size(); ++b) {
       const RigidBody<D>& body = bodies.rigid.body[b];
-      const Vec<D> jump = body.mass * body.mobility.cwiseProduct(gravity_change) - rate_change * body.velocity;
+      const Vec<D> jump = body.mass * body.mobility * gravity_change - rate_change * body.velocity;
       motion_[b].acceleration += jump, motion_[b].expected += jump;
     }
   }
@@ -185,7 +185,7 @@ class BodyPass {
       states.hold(i);
     }
     const Vec<D> force = motion.force + body.force + body.mass * bodies.gravity;
-    const Vec<D> acceleration = body.mobility.cwiseProduct(force) - seen.gradient * motion.predicted;
+    const Vec<D> acceleration = body.mobility * force - seen.gradient * motion.predicted;
     const Spin<D> turning = turning_rate(body, Spin<D>(motion.torque + body.torque));
     motion.expected = acceleration + extrapolation * (acceleration - motion.acceleration);
     motion.turning_expected = turning + extrapolation * (turning - motion.turning);

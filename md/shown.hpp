@@ -22,12 +22,16 @@ class Shown {
 
   ContactColumns<D> contacts;
 
-  std::size_t bytes() const { return bytes_of(position_, velocity_, radius_, mass_, spin_); }
+  std::size_t bytes() const { return bytes_of(position_, velocity_, radius_, mass_, spin_, body_of_, arm_); }
 
   /// Shows the grains of `bodies`, of which the k-th has number[k].
   void show_grains(const Bodies<Y>& bodies, std::span<const int> number, Snapshot<D>& shown) {
     put(bodies.position, number, position_), put(bodies.velocity, number, velocity_);
     put(bodies.radius, number, radius_), put(bodies.mass, number, mass_);
+    if (!bodies.rigid.none()) {
+      put(bodies.rigid.of, number, body_of_), put(bodies.arm, number, arm_);
+      shown.body_of = body_of_, shown.arm = arm_;
+    }
     shown.position = position_, shown.velocity = velocity_, shown.radius = radius_, shown.mass = mass_;
     if constexpr (Y.friction) {
       put(bodies.spin, number, spin_);
@@ -78,6 +82,8 @@ class Shown {
   Column<Vec<D>> position_, velocity_;
   Column<double> radius_, mass_;
   Column<Spin<D>, true> spin_;
+  std::vector<int> body_of_;
+  std::vector<Vec<D>> arm_;
   std::vector<int> order_;
   Permutation sorting_;
 };

@@ -19,6 +19,10 @@
 
 namespace galet {
 
+/// The profile that the scene asks for: by layers, or by rings.
+template <int D>
+std::vector<ProfileRow> scene_profile(const Scene& scene, const Snapshot<D>& snapshot);
+
 /// Sums of profiles taken at different times.
 class ProfileAverage {
  public:
@@ -41,7 +45,8 @@ struct FinalMeasures {
   std::vector<DirectionRow> directions;
   std::string direction_axes = "xy";  ///< the plane that these are of
   std::vector<ProfileRow> profile;
-  long profile_states = 0;  ///< rows that the profile is a mean of; 0: it is that of the last state
+  long profile_states = 0;        ///< rows that the profile is a mean of; 0: it is that of the last state
+  bool profile_by_rings = false;  ///< components are (r, theta, z), not (x, y, z)
   Vec<3> profile_normal = Vec<3>::UnitY();
   std::vector<double> local_solid_fraction;  ///< of each grain
   std::optional<Indeterminacy> indeterminacy;

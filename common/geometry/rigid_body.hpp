@@ -88,7 +88,7 @@ struct RigidBody {
   // What does not change.
   double mass = 1;
   Spin<D> moments = one_spin();      ///< of inertia about c, principal ones in 3D
-  Vec<D> mobility = Vec<D>::Zero();  ///< 1 / mass along the free directions, 0 along the others
+  Mat<D> mobility = Mat<D>::Zero();  ///< 1 / mass along the free directions, 0 across them
   Turning turning = Turning::imposed;
   Vec<D> axis = Vec<D>::Unit(D - 1);  ///< about_axis: e
   Vec<D> force = Vec<D>::Zero();      ///< external, along free directions
@@ -96,7 +96,7 @@ struct RigidBody {
   bool turns = false;                 ///< whether it ever turns (freely, or with an imposed spin)
 
   /// Whether forces and torques move it in every way, as they do a grain.
-  bool is_free() const { return turning == Turning::free && (mobility.array() > 0).all(); }
+  bool is_free() const { return turning == Turning::free && (mobility.diagonal().array() > 0).all(); }
 
   /// Whether J and not w is what torques change.
   bool has_momentum() const { return D == 3 && turning == Turning::free; }
