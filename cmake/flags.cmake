@@ -40,6 +40,8 @@ function(galet_library name)
   target_link_libraries(galet_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:galet_flags>)
   target_compile_features(galet_${name} PUBLIC cxx_std_20)
   target_precompile_headers(galet_${name} PRIVATE ${GALET_COMMON_HEADERS})
+  # The largest files, each a target's longest compilation already.
+  set_source_files_properties(instances.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # Kernels are compiled once per instruction set (common/core/instructions.hpp).
@@ -62,7 +64,7 @@ function(galet_kernels)
     set_source_files_properties(kernel/avx2.cpp PROPERTIES HEADER_FILE_ONLY ON)
   endif()
   # A kernel file sees nothing but what it includes (md/kernel/dispatch.hpp says why).
-  set_source_files_properties(${kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   # All kernels of one instruction set are one file: without these limits raised GCC stops inlining in the middle of
   # the inner loops. Sanitizers need no such speed, and take minutes to compile what was inlined: they watch the scalar
   # build of the same source.

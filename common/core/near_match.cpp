@@ -58,7 +58,7 @@ std::optional<std::string> near_match(std::string_view name, const std::vector<s
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   const std::optional<std::string> meant = near_match(name, candidates);
-  return meant ? "; did you mean " + quoted(*meant) + "?" : "";
+  return meant ? "; did you mean " + in_quotes(*meant) + "?" : "";
 }
 
 std::string alternatives(const std::vector<std::string>& names) {
@@ -70,11 +70,11 @@ std::string alternatives(const std::vector<std::string>& names) {
   return list;
 }
 
-std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
+std::string in_quotes(std::string_view name) { return '"' + std::string(name) + '"'; }
 
-std::vector<std::string> quoted(const std::vector<std::string>& names) {
+std::vector<std::string> in_quotes(const std::vector<std::string>& names) {
   std::vector<std::string> all;
-  for (const std::string& name : names) all.push_back(quoted(name));
+  for (const std::string& name : names) all.push_back(in_quotes(name));
   return all;
 }
 

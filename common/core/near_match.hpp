@@ -23,7 +23,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
 std::string alternatives(const std::vector<std::string>& names);
 
 /// The name in double quotes; each of the names in double quotes.
-std::string quoted(std::string_view name);
-std::vector<std::string> quoted(const std::vector<std::string>& names);
+std::string in_quotes(std::string_view name);
+std::vector<std::string> in_quotes(const std::vector<std::string>& names);
 
 }  // namespace galet

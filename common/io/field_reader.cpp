@@ -149,7 +149,7 @@ std::optional<double> FieldReader::number_with_unit(const TreeNode& node, const 
     if (const auto value = value_with_unit(text, quantity, dimension)) return value;
   const int dimension = dimensions.front();
   const std::optional<std::string> meant = near_unit(text, quantity, dimension);
-  refuse(node, expected_units(quantity, dimension), meant ? "; did you mean " + quoted(*meant) + "?" : "");
+  refuse(node, expected_units(quantity, dimension), meant ? "; did you mean " + in_quotes(*meant) + "?" : "");
   return std::nullopt;
 }
 

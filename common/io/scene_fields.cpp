@@ -77,7 +77,7 @@ struct ExpectedOf {
   std::string operator()(std::string*) const { return "a string"; }
   std::string operator()(std::vector<bool>*) const { return "an array of true or false"; }
   std::string operator()(std::vector<std::string>*) const {
-    return field.choices.empty() ? "an array of strings" : "an array of " + alternatives(quoted(field.choices));
+    return field.choices.empty() ? "an array of strings" : "an array of " + alternatives(in_quotes(field.choices));
   }
   std::string operator()(std::vector<double>*) const {
     const std::string array = "an array of " + with_range(plural(field.quantity), field.range);
@@ -85,7 +85,7 @@ struct ExpectedOf {
   }
   template <class Enum>
   std::string operator()(Enum*) const {
-    return alternatives(quoted(field.choices));
+    return alternatives(in_quotes(field.choices));
   }
 
  private:
@@ -106,7 +106,7 @@ struct DefaultOf {
   std::string operator()(const int* value) const { return fmt::format("{}", *value); }
   std::string operator()(const std::uint64_t* value) const { return fmt::format("{}", *value); }
   std::string operator()(const double* value) const { return fmt::format("{}", *value); }
-  std::string operator()(const std::string* text) const { return text->empty() ? "none" : quoted(*text); }
+  std::string operator()(const std::string* text) const { return text->empty() ? "none" : in_quotes(*text); }
   std::string operator()(const std::optional<double>* value) const { return *value ? (*this)(&**value) : "none"; }
   std::string operator()(const std::vector<double>* values) const {
     return values->empty() ? "none" : fmt::format("{}", *values);
@@ -123,7 +123,7 @@ struct DefaultOf {
   }
 
  private:
-  std::string chosen(std::size_t index) const { return quoted(field.choices.at(index)); }
+  std::string chosen(std::size_t index) const { return in_quotes(field.choices.at(index)); }
 };
 
 /// A default scene with one entry in each of its lists, for fields to point into.
@@ -140,7 +140,7 @@ std::string expected(const SceneField& field) {
   Scene scene = scene_with_entries();
   const FieldTarget target = field.target(scene);
   if (!field.choices.empty() && !std::holds_alternative<std::vector<std::string>*>(target))
-    return alternatives(quoted(field.choices));
+    return alternatives(in_quotes(field.choices));
   return std::visit(ExpectedOf{field}, target);
 }
 
@@ -149,7 +149,7 @@ std::string expected_item(const SceneField& field) {
   const FieldTarget target = field.target(scene);
   if (std::holds_alternative<std::vector<bool>*>(target)) return "true or false";
   if (std::holds_alternative<std::vector<std::string>*>(target))
-    return field.choices.empty() ? "a string" : alternatives(quoted(field.choices));
+    return field.choices.empty() ? "a string" : alternatives(in_quotes(field.choices));
   return with_range(with_article(field.quantity), field.range);
 }
 

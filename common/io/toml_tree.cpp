@@ -175,10 +175,10 @@ std::string shown(const TreeNode& node) {
       return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
     }
     std::string operator()(const std::string& text) const {
-      if (text.size() <= 60) return quoted(text);
+      if (text.size() <= 60) return in_quotes(text);
       std::size_t cut = 57;
       while ((static_cast<unsigned char>(text[cut]) & 0xC0u) == 0x80u) --cut;  // not inside a UTF-8 character
-      return quoted(text.substr(0, cut) + "...");
+      return in_quotes(text.substr(0, cut) + "...");
     }
     std::string operator()(const TreeNode::List& items) const {
       return items.size() == 1 ? "an array of 1 value" : fmt::format("an array of {} values", items.size());

@@ -38,9 +38,9 @@ std::string path_of(const std::string& key, const std::string& section) {
 
 UnknownName explain_unknown_key(const std::string& key, const std::string& section) {
   const std::string start =
-      fmt::format("unknown name {} {} {}", quoted(key), section.empty() ? "at" : "in", table_name(section));
+      fmt::format("unknown name {} {} {}", in_quotes(key), section.empty() ? "at" : "in", table_name(section));
   if (const auto fields = fields_of_symbol(key, section); !fields.empty())
-    return {fmt::format("{}; did you mean {}?", start, quoted(last_key(fields.front()))), fields};
+    return {fmt::format("{}; did you mean {}?", start, in_quotes(last_key(fields.front()))), fields};
   if (const auto fields = fields_elsewhere(key); !fields.empty()) {
     std::vector<std::string> tables;
     for (const std::string& path : fields) tables.push_back(table_name(parent_path(path)));
@@ -48,7 +48,7 @@ UnknownName explain_unknown_key(const std::string& key, const std::string& secti
   }
   const std::vector<std::string> keys = keys_of(section);
   if (const auto meant = near_match(key, keys))
-    return {fmt::format("{}; did you mean {}?", start, quoted(*meant)), {path_of(*meant, section)}};
+    return {fmt::format("{}; did you mean {}?", start, in_quotes(*meant)), {path_of(*meant, section)}};
   return {fmt::format("{}; expected {}", start, alternatives(keys)), {}};
 }
 

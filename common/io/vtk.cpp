@@ -29,10 +29,10 @@ std::string data_array(const std::string& name, const std::vector<Number>& value
 }
 
 template <int D>
-void append(std::vector<double>& flat, const Vec<D>& value) {
+void append_components(std::vector<double>& flat, const Vec<D>& value) {
   for (int a = 0; a < 3; ++a) flat.push_back(a < D ? value[a] : 0.0);
 }
-void append(std::vector<double>& flat, double spin) { flat.insert(flat.end(), {0, 0, spin}); }
+void append_components(std::vector<double>& flat, double spin) { flat.insert(flat.end(), {0, 0, spin}); }
 
 /// Cells of `size` consecutive points each.
 std::string cells(const char* element, std::size_t count, int size) {
@@ -72,10 +72,10 @@ std::string vtp_grains(const Snapshot<D>& snapshot, const std::vector<int>& mate
   }
   for (int i = 0; i < snapshot.grains(); ++i) {
     const Vec<D> x = wrapped_position<D>(cell, inverse, snapshot.position[i]);
-    append<D>(points, x);
-    append<D>(velocity, snapshot.velocity[i] + cell.rate * x);
-    append<D>(fluctuation, snapshot.velocity[i]);
-    append(spin, snapshot.spin.empty() ? zero_spin<D>() : snapshot.spin[i]);
+    append_components<D>(points, x);
+    append_components<D>(velocity, snapshot.velocity[i] + cell.rate * x);
+    append_components<D>(fluctuation, snapshot.velocity[i]);
+    append_components(spin, snapshot.spin.empty() ? zero_spin<D>() : snapshot.spin[i]);
     id.push_back(i);
     kind.push_back(material.empty() ? 0 : material[i]);
   }
@@ -97,9 +97,9 @@ std::string vtp_contacts(const Snapshot<D>& snapshot) {
   std::vector<std::uint8_t> touching;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Vec<D> start = wrapped_position<D>(*snapshot.cell, inverse, snapshot.position[contacts.i[c]]);
-    append<D>(points, start);
-    append<D>(points, start + contacts.branch[c]);
-    append<D>(force, contacts.force[c]);
+    append_components<D>(points, start);
+    append_components<D>(points, start + contacts.branch[c]);
+    append_components<D>(force, contacts.force[c]);
     normal.push_back(contacts.force[c].dot(contacts.normal[c]));
     tangential.push_back((contacts.force[c] - normal.back() * contacts.normal[c]).norm());
     first.push_back(contacts.i[c]), second.push_back(contacts.j[c]);
@@ -123,8 +123,8 @@ std::string vtp_cell(const Snapshot<D>& snapshot) {
       Vec<D> from = Vec<D>::Zero();
       for (int b = 0; b < D; ++b)
         if ((corner >> b & 1) != 0) from += box.col(b);
-      append<D>(points, from);
-      append<D>(points, from + box.col(a));
+      append_components<D>(points, from);
+      append_components<D>(points, from + box.col(a));
       ++edges;
     }
   return poly_data(points, "", "", "Lines", edges, 2);

@@ -22,10 +22,6 @@ bool gaseous(InitialKind kind) { return kind == InitialKind::gas || kind == Init
 
 bool glued(const ListedGrain& grain) { return !grain.body.empty(); }
 
-bool all_periodic(const Scene& scene) {
-  return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
-}
-
 double largest_diameter(const Scene& scene) {
   if (drawn(scene.initial.kind)) return largest_diameter(scene.grains.diameter);
   double largest = 0;
@@ -194,7 +190,7 @@ void check_initial(Report& report) {
   const bool readable = initial.file.ends_with(".csv") || initial.file.ends_with(".data");
   report.rule(!packing || initial.file.empty() || readable, "initial.file",
               fmt::format("initial.file: expected a name that ends in .csv (a table) or .data (LAMMPS), got {}",
-                          quoted(initial.file)),
+                          in_quotes(initial.file)),
               {"initial.kind"});
   report.rule(initial.kind != InitialKind::listed || initial.speed == 0, "initial.speed",
               "initial.speed has no effect on listed grains: give each [[grain]] its velocity", {"initial.kind"});
@@ -204,7 +200,7 @@ void check_initial(Report& report) {
               "initial.friction needs initial.kind = \"compressed_gas\"", {"initial.kind"});
   report.rule(!compressed || scene.loading.pressure, "initial.kind",
               "initial.kind = \"compressed_gas\" needs loading.pressure", {"loading.pressure"});
-  report.rule(!compressed || all_periodic(scene), "initial.kind",
+  report.rule(!compressed || periodic_everywhere(scene), "initial.kind",
               "initial.kind = \"compressed_gas\" needs a cell periodic in each direction", {"cell.periodic"});
   check_solid_fraction(report);
 }

@@ -204,11 +204,11 @@ void check_body(Report& report, std::size_t k) {
       std::any_of(listed.begin(), listed.end(), [&](const ListedGrain& grain) { return grain.body == body.name; });
   report.rule(
       body.shape == BodyShape::listed || !used, path + "name",
-      fmt::format("{}name: the shape makes the grains of {}: no [[grain]] can be glued to it", path, quoted(body.name)),
+      fmt::format("{}name: the shape makes the grains of {}: no [[grain]] can be glued to it", path, in_quotes(body.name)),
       {"grain", path + "shape"});
   report.rule(used || body.shape != BodyShape::listed, path + "name",
-              fmt::format("{}name: no [[grain]] is glued to {}: give its grains body = {}", path, quoted(body.name),
-                          quoted(body.name)),
+              fmt::format("{}name: no [[grain]] is glued to {}: give its grains body = {}", path, in_quotes(body.name),
+                          in_quotes(body.name)),
               {"grain"});
 }
 
@@ -251,7 +251,7 @@ void check_bodies(Report& report) {
     const std::string path = fmt::format("body[{}].name", k), &name = scene.bodies[k].name;
     report.rule(!name.empty(), path, path + " is empty");
     report.rule(name.empty() || seen.insert(name).second, path,
-                fmt::format("{}: {} is the name of another body already", path, quoted(name)));
+                fmt::format("{}: {} is the name of another body already", path, in_quotes(name)));
     if (!name.empty()) check_body(report, k);
     names.push_back(name);
   }
@@ -263,7 +263,7 @@ void check_bodies(Report& report) {
     const bool known = std::find(names.begin(), names.end(), grain.body) != names.end();
     report.rule(
         known, path + "body",
-        fmt::format("{}body: no [[body]] is called {}{}", path, quoted(grain.body), suggestion(grain.body, names)),
+        fmt::format("{}body: no [[body]] is called {}{}", path, in_quotes(grain.body), suggestion(grain.body, names)),
         {"body"});
     report.rule(grain.velocity.empty() && grain.spin.empty(), path + "body",
                 path + "body: a grain of a body moves with it: leave out its velocity and spin");

@@ -25,13 +25,9 @@ struct Part {
   bool pressure() const { return loading.pressure || has_unit; }
 };
 
-bool all_periodic(const Scene& scene) {
-  return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
-}
-
 std::string kind_name(LoadingKind kind) {
   const char* names[] = {"none", "plane_shear", "isotropic", "oedometric", "biaxial", "triaxial", "drives"};
-  return quoted(names[static_cast<int>(kind)]);
+  return in_quotes(names[static_cast<int>(kind)]);
 }
 
 // ---- loadings ----------------------------------------------------------------------------------------------
@@ -170,14 +166,14 @@ void check_drives(Report& report, const Part& part) {
     const std::string entry = fmt::format("{}[{}]", part.drive_list, k), component = entry + ".component";
     const bool known = std::find(names.begin(), names.end(), drive.component) != names.end();
     report.rule(known, component,
-                fmt::format("{}: expected {}, got {}{}", component, alternatives(quoted(names)),
-                            quoted(drive.component), suggestion(drive.component, names)),
+                fmt::format("{}: expected {}, got {}{}", component, alternatives(in_quotes(names)),
+                            in_quotes(drive.component), suggestion(drive.component, names)),
                 {"dimension"});
     report.rule(!known || seen.insert(drive.component).second, component,
-                fmt::format("{}: {} is driven twice", component, quoted(drive.component)));
+                fmt::format("{}: {} is driven twice", component, in_quotes(drive.component)));
     const bool diagonal = drive.component.size() == 2 && drive.component[0] == drive.component[1];
     report.rule(!known || !isotropic || !diagonal, component,
-                fmt::format("{}: {} and \"isotropic\" drive the same rate", component, quoted(drive.component)));
+                fmt::format("{}: {} and \"isotropic\" drive the same rate", component, in_quotes(drive.component)));
     check_drive_source(report, entry, drive);
   }
 }
@@ -189,7 +185,7 @@ void check_loading(Report& report, const Part& part) {
   check_gravity(report, part);
   check_drives(report, part);
   check_pressure(report, part);
-  report.rule(part.loading.kind == LoadingKind::none || all_periodic(report.scene), "cell.periodic",
+  report.rule(part.loading.kind == LoadingKind::none || periodic_everywhere(report.scene), "cell.periodic",
               fmt::format("cell.periodic: this {} moves the cell, which must be periodic in each direction",
                           part.in_loading("kind")),
               {part.in_loading("kind")});
@@ -226,7 +222,7 @@ void check_until(Report& report, const Part& part) {
   const Paths names = component_names(report.scene.dimension);
   const bool known = std::find(names.begin(), names.end(), end.until) != names.end();
   report.rule(end.until.empty() || known, until,
-              fmt::format("{}: expected {}, got {}{}", until, alternatives(quoted(names)), quoted(end.until),
+              fmt::format("{}: expected {}, got {}{}", until, alternatives(in_quotes(names)), in_quotes(end.until),
                           suggestion(end.until, names)),
               {"dimension"});
   report.rule(end.until.empty() || end.until_stress || end.until_strain, until,
@@ -276,7 +272,7 @@ void check_whole_of_stages(Report& report) {
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     const std::string& name = scene.stages[k].name;
     report.rule(name.empty() || names.insert(name).second, fmt::format("stage[{}].name", k),
-                fmt::format("stage[{}].name: {} is the name of another stage already", k, quoted(name)));
+                fmt::format("stage[{}].name: {} is the name of another stage already", k, in_quotes(name)));
   }
 }
 

@@ -204,8 +204,8 @@ void check_reference(Report& report, const std::string& path, const std::string&
   const Paths names = material_names(report.scene);
   const bool known = std::find(names.begin(), names.end(), name) != names.end();
   report.rule(known, path,
-              fmt::format("{}: no material is called {}{}; there {} {}", path, quoted(name), suggestion(name, names),
-                          names.size() == 1 ? "is only" : "are", alternatives(quoted(names))),
+              fmt::format("{}: no material is called {}{}; there {} {}", path, in_quotes(name), suggestion(name, names),
+                          names.size() == 1 ? "is only" : "are", alternatives(in_quotes(names))),
               {"material.name", "other_material"});
 }
 
@@ -221,7 +221,7 @@ void check_groups(Report& report) {
     const std::string path = fmt::format("group[{}].", k);
     check_reference(report, path + "material", groups[k].material);
     report.rule(seen.insert(groups[k].material).second, path + "material",
-                fmt::format("{}material: {} has a group already", path, quoted(groups[k].material)));
+                fmt::format("{}material: {} has a group already", path, in_quotes(groups[k].material)));
     sum += groups[k].fraction;
   }
   report.rule(sum <= 1 + 1e-9, "group", fmt::format("group: the fractions sum to {:.6g}, more than 1", sum));
@@ -256,7 +256,7 @@ void check_material_names(Report& report) {
     const std::string path = fmt::format("other_material[{}].name", k), &name = scene.other_materials[k].name;
     report.rule(!name.empty(), path, path + " is empty");
     report.rule(name.empty() || seen.insert(name).second, path,
-                fmt::format("{}: {} is the name of another material already", path, quoted(name)), {"material.name"});
+                fmt::format("{}: {} is the name of another material already", path, in_quotes(name)), {"material.name"});
   }
   // Rows of pairs are numbered in one byte: 15 materials make 225 of them.
   report.rule(scene.other_materials.size() < 15, "other_material",

@@ -19,7 +19,7 @@ bool any_friction(const Scene& scene) {
 void check_repeated(Report& report, const std::string& path, const std::vector<std::string>& words) {
   std::set<std::string> seen;
   for (const std::string& word : words)
-    if (!seen.insert(word).second) report.add(path, fmt::format("{}: {} is there twice", path, quoted(word)));
+    if (!seen.insert(word).second) report.add(path, fmt::format("{}: {} is there twice", path, in_quotes(word)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What the parts of check() share: the scene under examination and what was found in it.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ inline bool drawn(InitialKind kind) {
 
 inline bool is_periodic(const Scene& scene, std::size_t direction) {
   return direction >= scene.cell.periodic.size() || scene.cell.periodic[direction];
+}
+
+inline bool periodic_everywhere(const Scene& scene) {
+  return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
 }
 
 inline char axis(std::size_t direction) { return "xyz"[direction]; }

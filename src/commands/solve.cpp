@@ -36,7 +36,7 @@ void check_arguments(const SolveArguments& arguments) {
   const std::string& solver = arguments.options.solver;
   if (std::find(names.begin(), names.end(), solver) == names.end())
     throw InputError(fmt::format("--solver {}: there is no such solver{}; expected {}", solver,
-                                 suggestion(solver, names), alternatives(quoted(names))));
+                                 suggestion(solver, names), alternatives(in_quotes(names))));
   if (!arguments.output.empty() && arguments.files.size() > 1)
     throw InputError(fmt::format("--output {}: it holds the solution of one problem, and {} are given",
                                  arguments.output, arguments.files.size()));

@@ -32,8 +32,8 @@ const Study& find_study(const std::string& name) {
     if (study.name == name) return study;
     names.emplace_back(study.name);
   }
-  throw InputError(fmt::format("no study is called {}{}; expected {}", quoted(name), suggestion(name, names),
-                               alternatives(quoted(names))));
+  throw InputError(fmt::format("no study is called {}{}; expected {}", in_quotes(name), suggestion(name, names),
+                               alternatives(in_quotes(names))));
 }
 
 double estimate_run(const StudyRun& run) {

@@ -50,7 +50,7 @@ std::vector<const Case*> select_cases(const std::vector<std::string>& names, Eff
     if (std::find(known.begin(), known.end(), name) == known.end())
       mistakes.push_back({"", 0, 0,
                           fmt::format("there is no case or tag called {}{}; galet verify --list shows them",
-                                      quoted(name), suggestion(name, known))});
+                                      in_quotes(name), suggestion(name, known))});
   if (!mistakes.empty()) throw InputError(mistakes);
   std::vector<const Case*> chosen;
   for (const Case& which : all_cases()) {

@@ -3,7 +3,7 @@
 
 #include "tests/support/rigid_bodies.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_clump_laws_test {
 namespace {
 
 constexpr double radius = 0.5;
@@ -124,4 +124,4 @@ TEST(ClumpLawsCd, AttractionTurnsADumbbell) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_clump_laws_test

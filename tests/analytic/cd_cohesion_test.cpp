@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_cohesion_test {
 namespace {
 
 constexpr double radius = 0.5, cohesion = 2;
@@ -154,4 +154,4 @@ TEST(CohesionCd, EscapeTakesTheEnergyOfTheRange) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_cohesion_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_impact_test {
 namespace {
 
 struct Impact {
@@ -163,4 +163,4 @@ TEST(ImpactCd, RestitutionOfThePairOfMaterials) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_impact_test

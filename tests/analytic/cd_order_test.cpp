@@ -10,7 +10,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_order_test {
 namespace {
 
 constexpr std::array steps{0.02, 0.01, 0.005, 0.0025};
@@ -377,4 +377,4 @@ TEST(OrderCd, ObliqueImpacts) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_order_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_rolling_test {
 namespace {
 
 constexpr double radius = 0.5;
@@ -128,4 +128,4 @@ TEST(RollingCd, SlidingBecomesRollingWithResistance) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_rolling_test

@@ -4,7 +4,7 @@
 #include "common/core/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_statics_test {
 namespace {
 
 /// Three equal cylinders, two on the floor and one on them. They stand iff mu between cylinders is at least
@@ -147,4 +147,4 @@ TEST(FastGrainsCd, AStepWithoutSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_statics_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::chain_test {
 namespace {
 
 /// Velocities of the balls and deflections of the two contacts; masses, coefficient and first velocity are 1.
@@ -122,4 +122,4 @@ TEST(Chain, ConvergesAtSecondOrderSpheres) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::chain_test

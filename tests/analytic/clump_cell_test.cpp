@@ -4,7 +4,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/rigid_bodies.hpp"
 
-namespace galet::test {
+namespace galet::test::clump_cell_test {
 namespace {
 
 /// Two dumbbells that collide off centre in the middle of a cell, with the total velocities V + L c of `rate`.
@@ -151,4 +151,4 @@ TEST(ClumpsInACell, EnergyBudgetClosesMd) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::clump_cell_test

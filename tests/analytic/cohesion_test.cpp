@@ -6,7 +6,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::cohesion_test {
 namespace {
 
 constexpr double cohesion = 0.8;  // F0
@@ -366,4 +366,4 @@ TEST(Cohesion, DampedPairIsCapturedOrEscapes) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cohesion_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::collision_test {
 namespace {
 
 constexpr double stiffness = 1e4;
@@ -272,4 +272,4 @@ TEST(CollisionCd, NewtonCradleInContact) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::collision_test

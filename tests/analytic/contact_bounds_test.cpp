@@ -8,7 +8,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::contact_bounds_test {
 namespace {
 
 constexpr double stiffness = 1, cohesion = 0.01;  // h0 = 0.01 (constant), 0.04 (square root)
@@ -311,4 +311,4 @@ TEST(ContactBounds, DampingEntersTheBoundsInTheTotalConventionOnly) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::contact_bounds_test

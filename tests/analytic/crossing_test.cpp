@@ -6,7 +6,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::crossing_test {
 namespace {
 
 struct Case {
@@ -70,4 +70,4 @@ TEST(Crossing, CollisionsErrAtSecondOrder) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::crossing_test

@@ -4,7 +4,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::cylinder_test {
 namespace {
 
 constexpr double wall = 5, ball = 0.5;  // R_c, R
@@ -244,4 +244,4 @@ cell = {size = [9, 9], periodic = [false, false]}
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cylinder_test

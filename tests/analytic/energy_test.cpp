@@ -4,7 +4,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::energy_test {
 namespace {
 
 struct Drift {
@@ -169,4 +169,4 @@ TEST(EnergyCd, FrictionAndRestitutionOnlyTakeEnergy) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::energy_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::hertz_test {
 namespace {
 
 /// Two bodies that touch, with the constants of their contact.
@@ -243,4 +243,4 @@ TEST(HertzLaw, ChungAndOoiTestThreeRestitution) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::hertz_test

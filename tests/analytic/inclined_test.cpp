@@ -7,7 +7,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::inclined_test {
 namespace {
 
 constexpr double slope = 20;
@@ -152,4 +152,4 @@ TEST(GuidedBody, TakesTheImpulseAlongItsLine) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::inclined_test

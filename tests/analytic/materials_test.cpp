@@ -7,7 +7,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::materials_test {
 namespace {
 
 /// One material in full.
@@ -368,4 +368,4 @@ TEST(Materials, ThreeGrainsAndTwoPlanesAtOnce) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::materials_test

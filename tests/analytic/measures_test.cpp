@@ -9,7 +9,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::measures_test {
 namespace {
 
 /// A loosened triangular crystal of unlike disks between four smooth planes: left, right, floor, lid.
@@ -165,4 +165,4 @@ TEST(MeasuresMd, ModuliAreTheStressOfASmallStrain) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::measures_test

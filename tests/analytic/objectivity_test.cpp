@@ -11,7 +11,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::objectivity_test {
 namespace {
 
 Vec<3> tangential_force(const Snapshot<3>& state) {
@@ -267,4 +267,4 @@ TEST(Objectivity, ExchangingTheGrainsExchangesTheirOutcome) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::objectivity_test

@@ -7,7 +7,7 @@
 #include "tests/support/impact.hpp"
 #include "tests/support/planar_impact.hpp"
 
-namespace galet::test {
+namespace galet::test::oblique_law_test {
 namespace {
 
 struct Case {
@@ -229,4 +229,4 @@ TEST(ObliqueLaw, OracleConservesAndConverges) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::oblique_law_test

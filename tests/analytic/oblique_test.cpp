@@ -6,7 +6,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::oblique_test {
 namespace {
 
 constexpr double restitution = 0.6;
@@ -189,4 +189,4 @@ TEST(ObliqueMd, RadialReturnMakesUndampedSlidingExact) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::oblique_test

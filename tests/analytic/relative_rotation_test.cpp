@@ -8,7 +8,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::relative_rotation_test {
 namespace {
 
 constexpr double cohesion = 1;
@@ -280,4 +280,4 @@ TEST(RelativeRotation, TorqueTurnsWithTheNormal) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::relative_rotation_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::rest_test {
 namespace {
 
 constexpr double gravity = 1;
@@ -195,4 +195,4 @@ TEST(Rest, ThreeDisksStandIffFrictionSuffices) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rest_test

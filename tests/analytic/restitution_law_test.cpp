@@ -6,7 +6,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::restitution_law_test {
 namespace {
 
 /// Steps per (elastic) contact where the restitution is asked for within 1e-4. A damping force that jumps at the
@@ -186,4 +186,4 @@ TEST(RestitutionLaw, ConventionsDiffer) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::restitution_law_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::restitution_test {
 namespace {
 
 struct Motion {
@@ -113,4 +113,4 @@ TEST(Restitution, DurationScalesWithMassAndStiffness) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::restitution_test

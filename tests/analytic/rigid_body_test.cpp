@@ -4,7 +4,7 @@
 
 #include "tests/support/rigid_bodies.hpp"
 
-namespace galet::test {
+namespace galet::test::rigid_body_test {
 namespace {
 
 constexpr double gravity = 1;
@@ -285,4 +285,4 @@ TEST(RigidBody, AnyTopKeepsItsMomentumAndItsEnergyToSecondOrder) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rigid_body_test

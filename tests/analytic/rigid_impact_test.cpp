@@ -4,7 +4,7 @@
 
 #include "tests/support/rigid_bodies.hpp"
 
-namespace galet::test {
+namespace galet::test::rigid_impact_test {
 namespace {
 
 /// A dumbbell along y in free space, and a grain that meets its upper grain with the relative velocity `approach`;
@@ -145,4 +145,4 @@ TEST(RigidImpact, SlidingImpactTendsToTheRigidOne) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rigid_impact_test

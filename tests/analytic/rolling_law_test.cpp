@@ -10,7 +10,7 @@
 
 #include "tests/support/impact.hpp"
 
-namespace galet::test {
+namespace galet::test::rolling_law_test {
 namespace {
 
 constexpr double gravity = 1, friction = 0.3, radius = 0.5;
@@ -327,4 +327,4 @@ TEST(RollingLaw, PivotingStopsASpinningBall) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rolling_law_test

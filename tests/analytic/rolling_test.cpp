@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::rolling_test {
 namespace {
 
 constexpr double gravity = 1;
@@ -182,4 +182,4 @@ TEST(Rolling, OnASlopeSphere) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rolling_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::rough_wall_test {
 namespace {
 
 /// A floor of three touching disks, and one disk in each of its two hollows.
@@ -108,4 +108,4 @@ TEST(RoughWallCd, RestartsWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rough_wall_test

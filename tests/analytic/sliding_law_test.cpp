@@ -13,7 +13,7 @@
 #include "tests/support/impact.hpp"
 #include "tests/support/planar_impact.hpp"
 
-namespace galet::test {
+namespace galet::test::sliding_law_test {
 namespace {
 
 /// A sphere about to strike a plane, in units of its own: everything that the tests vary.
@@ -254,4 +254,4 @@ TEST(SlidingLaw, RegimesAgainstTheIntegration) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::sliding_law_test

@@ -23,7 +23,7 @@
 #include "tests/command/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet::test {
+namespace galet::test::faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ TEST_P(Faults, FilesThatMayNotGrow) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::faults_test

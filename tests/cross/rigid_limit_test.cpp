@@ -7,7 +7,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::rigid_limit_test {
 namespace {
 
 constexpr std::array kappas{1e3, 1e4, 1e5};
@@ -120,4 +120,4 @@ TEST(RigidLimit, BallInAGroove) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rigid_limit_test

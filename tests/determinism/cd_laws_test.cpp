@@ -4,7 +4,7 @@
 #include "tests/determinism/sheared.hpp"
 #include "tests/support/rigid_laws.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_laws_test {
 namespace {
 
 template <int D>
@@ -79,4 +79,4 @@ TEST(determinism, ThreadsCdEveryLaw) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_laws_test

@@ -7,7 +7,7 @@
 #include "common/core/parallel.hpp"
 #include "tests/determinism/sheared.hpp"
 
-namespace galet::test {
+namespace galet::test::determinism_test {
 namespace {
 
 template <int D>
@@ -146,4 +146,4 @@ TEST(determinism, StepsMayBeAskedForInAnySlices) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::determinism_test

@@ -12,7 +12,7 @@
 #include "common/neighbour/image.hpp"
 #include "tests/determinism/sheared.hpp"
 
-namespace galet::test {
+namespace galet::test::grain_order_test {
 namespace {
 
 std::vector<int> shuffled(int count, std::uint64_t seed) {
@@ -300,4 +300,4 @@ TEST(Permutation, MovesAlongItsCycles) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::grain_order_test

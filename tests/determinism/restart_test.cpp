@@ -6,7 +6,7 @@
 #include "common/io/checkpoint.hpp"
 #include "tests/determinism/sheared.hpp"
 
-namespace galet::test {
+namespace galet::test::restart_test {
 namespace {
 
 template <int D>
@@ -134,4 +134,4 @@ TEST(restart, ThroughACheckpointFile) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::restart_test

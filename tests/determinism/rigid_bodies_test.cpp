@@ -5,7 +5,7 @@
 
 #include "tests/determinism/sheared.hpp"
 
-namespace galet::test {
+namespace galet::test::rigid_bodies_test {
 namespace {
 
 /// A gas of clumps that collides, with a torque on one of them and a rotor.
@@ -67,4 +67,4 @@ TEST(restart, RigidBodies) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rigid_bodies_test

@@ -9,7 +9,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::stages_test {
 namespace {
 
 void expect_same(const RunResult& a, const RunResult& b) {
@@ -73,4 +73,4 @@ TEST(restart, WithinAnyStageMd) { check_engine(EngineKind::md); }
 TEST(restart, WithinAnyStageCd) { check_engine(EngineKind::cd); }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::stages_test

@@ -5,7 +5,7 @@
 #include "tests/support/limit_alloc.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::allocation_test {
 namespace {
 
 TEST(Allocation, IsCounted) {
@@ -53,4 +53,4 @@ TEST(Allocation, NoneWithAnyLawOfMd) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::allocation_test

@@ -5,7 +5,7 @@
 #include "tests/support/limit_alloc.hpp"
 #include "tests/support/rigid_laws.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_laws_test {
 namespace {
 
 /// Unequal spinning grains in free space that rush towards their common centre.
@@ -138,4 +138,4 @@ TEST(LayoutCd, RollingLayoutWithoutRollingIsTheSame) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_laws_test

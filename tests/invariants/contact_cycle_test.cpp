@@ -8,7 +8,7 @@
 #include "md/laws/spring.hpp"
 #include "md/pair_terms.hpp"
 
-namespace galet::md::test {
+namespace galet::md::test::contact_cycle_test {
 namespace {
 
 constexpr Kernel kernel{true, false, true};
@@ -197,4 +197,4 @@ TEST(ContactRotation, KeepsForceInTheMovingFrame) {
 }
 
 }  // namespace
-}  // namespace galet::md::test
+}  // namespace galet::md::test::contact_cycle_test

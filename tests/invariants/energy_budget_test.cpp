@@ -4,7 +4,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::energy_budget_test {
 namespace {
 
 struct Case {
@@ -229,4 +229,4 @@ TEST(EnergyBudget, MomentaAreConservedByEveryLaw) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::energy_budget_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::layout_test {
 namespace {
 
 /// Largest differences between the layouts over the looks at a run.
@@ -129,4 +129,4 @@ TEST(Layout, SmallestLayoutIsDeduced) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::layout_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::lees_edwards_test {
 namespace {
 
 constexpr double rate = 0.5;
@@ -261,4 +261,4 @@ TEST(LeesEdwards, FluctuationsHaveNoProfile) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::lees_edwards_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::momentum_test {
 namespace {
 
 /// side^D unequal spinning grains in free space that rush towards their common centre.
@@ -99,4 +99,4 @@ TEST(Momentum, OfFluctuationsStaysZeroInAShearedCell) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::momentum_test

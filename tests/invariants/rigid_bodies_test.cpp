@@ -6,7 +6,7 @@
 
 #include "tests/support/limit_alloc.hpp"
 
-namespace galet::test {
+namespace galet::test::rigid_bodies_test {
 namespace {
 
 template <int D>
@@ -107,4 +107,4 @@ TEST(Allocation, NoneWithRigidBodies) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::rigid_bodies_test

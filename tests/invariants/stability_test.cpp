@@ -5,7 +5,7 @@
 #include "common/core/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::stability_test {
 namespace {
 
 struct Stiff {
@@ -81,4 +81,4 @@ TEST(Stability, BoundHoldsForEveryTermDisks) { check<2>(); }
 TEST(Stability, BoundHoldsForEveryTermSpheres) { check<3>(); }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::stability_test

@@ -5,7 +5,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::stress_control_test {
 namespace {
 
 constexpr double pressure = 1;
@@ -199,4 +199,4 @@ TEST(StressControl, BiaxialCompressionHoldsTheLateralStress) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::stress_control_test

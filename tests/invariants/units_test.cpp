@@ -7,7 +7,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::units_test {
 namespace {
 
 struct Units {
@@ -96,4 +96,4 @@ TEST(Units, DoNotMatterCd) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::units_test

@@ -6,7 +6,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::assembly_test {
 namespace {
 
 Scene ready(const std::string& name, const std::vector<Override>& changes) {
@@ -92,4 +92,4 @@ TEST(Assembly, AggregationLeavesALoosePackingUnderLowPressure) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::assembly_test

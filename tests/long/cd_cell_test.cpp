@@ -5,7 +5,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_cell_test {
 namespace {
 
 constexpr double pressure = 1;
@@ -114,4 +114,4 @@ TEST(CellPathsCd, DisksHoldTheirStresses) { check<2>(); }
 TEST(CellPathsCd, SpheresHoldTheirStresses) { check<3>(); }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_cell_test

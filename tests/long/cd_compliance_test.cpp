@@ -7,7 +7,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_compliance_test {
 namespace {
 
 constexpr double stiffness = 1e6, young = 1e8, poisson = 0.25;
@@ -220,4 +220,4 @@ TEST(ComplianceCd, PackingUnderAStressIncrementDeflectsAsInMd) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_compliance_test

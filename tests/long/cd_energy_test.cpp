@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_energy_test {
 namespace {
 
 template <int D>
@@ -120,4 +120,4 @@ TEST(EnergyOfStepsCd, GrowthWithUnlikeRestitutionsIsAccounted) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_energy_test

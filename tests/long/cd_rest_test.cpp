@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_rest_test {
 namespace {
 
 constexpr long million = 1000000;
@@ -104,4 +104,4 @@ TEST(RestOverAMillionSteps, PackingUnderPressureKeepsItsPenetration) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_rest_test

@@ -5,7 +5,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::cd_rough_wall_test {
 namespace {
 
 constexpr double friction = 0.4, pressure = 1, dt = 0.02;
@@ -101,4 +101,4 @@ TEST(RoughWallFlowCd, HasTheFrictionLawOfThePeriodicCell) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::cd_rough_wall_test

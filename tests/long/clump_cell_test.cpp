@@ -4,7 +4,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/rigid_bodies.hpp"
 
-namespace galet::test {
+namespace galet::test::clump_cell_test {
 namespace {
 
 /// Momentum of fluctuations obeys dP/dt = -L P: none stays none.
@@ -48,4 +48,4 @@ TEST(ClumpsInACell, CarryThePressure) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::clump_cell_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/oracle_check.hpp"
 
-namespace galet::cd {
+namespace galet::cd::contact_oracle_test {
 namespace {
 
 void check_many(int block) {
@@ -29,4 +29,4 @@ TEST(ContactOracle, ManyRandomProblemsWithUnlikeMasses) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::contact_oracle_test

@@ -6,7 +6,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::gradient_flows_test {
 namespace {
 
 /// Least-squares slope of y against x over the mean of y: how far y is from uniform, per unit of x.
@@ -117,4 +117,4 @@ TEST(AnnularShear, MomentIsTheSameAtEachRadiusMd) { check_annulus(EngineKind::md
 TEST(AnnularShear, MomentIsTheSameAtEachRadiusCd) { check_annulus(EngineKind::cd); }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::gradient_flows_test

@@ -8,7 +8,7 @@
 #include "tests/support/checkpoint_mutations.hpp"
 #include "tests/support/scene_mutations.hpp"
 
-namespace galet::test {
+namespace galet::test::mutation_test {
 namespace {
 
 TEST(Mutations, OfSceneFiles) {
@@ -30,4 +30,4 @@ TEST(Mutations, OfCheckpoints) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::mutation_test

@@ -8,7 +8,7 @@
 #include "common/neighbour/verlet_list.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::remap_test {
 namespace {
 
 /// Points near the sites of a lattice (too small to meet), sheared step by step: at every build each pair that was in
@@ -145,4 +145,4 @@ TEST(Remap, ShearedCrystalRemembersAsIfItWereNeverRemapped) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::remap_test

@@ -15,7 +15,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet::test {
+namespace galet::test::scenes_restart_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ TEST_P(EveryScene, SameBitsAfterARestart_restart) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scenes_restart_test

@@ -9,7 +9,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet::test {
+namespace galet::test::stages_test {
 namespace {
 
 /// A dense sample of `count` grains, assembled without friction under P = 1; what follows is up to the caller.
@@ -134,4 +134,4 @@ TEST(Loadings, EnergyBudgetClosesThroughStages) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::stages_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/oracle_check.hpp"
 
-namespace galet::cd {
+namespace galet::cd::contact_oracle_test {
 namespace {
 
 TEST(ContactOracle, AnswersHaveAnExactSolutionBesideThem) {
@@ -51,4 +51,4 @@ TEST(ContactOracle, EnumeratesOneContact) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::contact_oracle_test

@@ -9,7 +9,7 @@
 #include "cd/discrete/one_contact.hpp"
 #include "cd/discrete/solve.hpp"
 
-namespace galet::cd {
+namespace galet::cd::discrete_solver_test {
 namespace {
 
 /// W = H^T M^-1 H and q = H^T v of bodies that move as they like: such problems have a solution.
@@ -347,4 +347,4 @@ TEST(DiscreteSolver, RefusesWhatIsNoProblem) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::discrete_solver_test

@@ -5,7 +5,7 @@
 #include "common/core/error.hpp"
 #include "tests/support/neighbours.hpp"
 
-namespace galet::test {
+namespace galet::test::neighbour_sizes_test {
 namespace {
 
 /// Grains of diameters 1, 1 / ratio and in between, none touching, at random in the cell and up to one cell outside.
@@ -186,4 +186,4 @@ TEST(UnlikeSizes, DeepOverlapsAreRefused) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::neighbour_sizes_test

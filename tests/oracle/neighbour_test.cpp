@@ -4,7 +4,7 @@
 #include "common/core/error.hpp"
 #include "tests/support/neighbours.hpp"
 
-namespace galet::test {
+namespace galet::test::neighbour_test {
 namespace {
 
 /// Points at random, also outside of the cell, for grains of diameter 0.4 (1 +- spread) that overlap by 10 % at most.
@@ -237,4 +237,4 @@ TEST(VerletList, IsEmptyAfterASearchThatFailed) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::neighbour_test

@@ -6,7 +6,7 @@
 #include "cd/solvers/nsgs.hpp"
 #include "common/core/random.hpp"
 
-namespace galet::cd {
+namespace galet::cd::solver_test {
 namespace {
 
 template <Layout Y>
@@ -297,4 +297,4 @@ TEST(Solver, AnImpossibleToleranceEndsWithAnHonestReason) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::solver_test

@@ -9,7 +9,7 @@
 #include "tests/determinism/sheared.hpp"
 #include "tests/support/rigid_laws.hpp"
 
-namespace galet::cd {
+namespace galet::cd::step_problem_test {
 namespace {
 
 template <int D>
@@ -425,4 +425,4 @@ TEST(StepProblem, OfEnginesIsSolvedByTheirImpulses) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::step_problem_test

@@ -6,7 +6,7 @@
 #include "common/core/instructions.hpp"
 #include "common/core/random.hpp"
 
-namespace galet::cd {
+namespace galet::cd::sweeps_test {
 namespace {
 
 template <int D>
@@ -249,4 +249,4 @@ TEST(Solver, ProblemsWithoutASolutionAreNoted) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::sweeps_test

@@ -10,7 +10,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::body_shapes_test {
 namespace {
 
 using Mistakes = std::vector<std::string>;
@@ -212,4 +212,4 @@ grain = [{position = [5, 5], diameter = 3, body = "post"}, {position = [6, 6], d
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::body_shapes_test

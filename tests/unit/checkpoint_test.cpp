@@ -14,7 +14,7 @@
 #include "tests/support/checkpoint_mutations.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::checkpoint_test {
 namespace {
 
 using test::file_bytes;
@@ -261,4 +261,4 @@ TEST(Checkpoint, FailureToWriteNamesPathAndReason) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::checkpoint_test

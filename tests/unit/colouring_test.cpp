@@ -7,7 +7,7 @@
 
 #include "common/core/random.hpp"
 
-namespace galet {
+namespace galet::test::colouring_test {
 namespace {
 
 /// Every contact once, no body twice in a colour (bodies >= movable and the overflow group excepted).
@@ -76,4 +76,4 @@ TEST(Colouring, NoContacts) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::colouring_test

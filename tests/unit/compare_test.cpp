@@ -8,7 +8,7 @@
 
 #include "src/compare_report.hpp"
 
-namespace galet {
+namespace galet::test::compare_test {
 namespace {
 
 Scene small_scene() {
@@ -118,4 +118,4 @@ TEST(Compare, CompressesOncePerSetOfParameters) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::compare_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::contact_directions_test {
 namespace {
 
 using test::snapshot_of;
@@ -95,4 +95,4 @@ TEST(ContactDirections, InAPlaneOfSpace) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::contact_directions_test

@@ -11,7 +11,7 @@
 #include "common/core/parallel.hpp"
 #include "common/core/random.hpp"
 
-namespace galet {
+namespace galet::test::core_test {
 namespace {
 
 // Known answers of Philox 4x32-10, published with its reference implementation (Salmon et al. 2011).
@@ -115,4 +115,4 @@ TEST(Error, MessagesCarryTheirPlace) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::core_test

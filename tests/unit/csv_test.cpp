@@ -10,7 +10,7 @@
 #include "common/core/random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::csv_test {
 namespace {
 
 using test::file_bytes;
@@ -111,4 +111,4 @@ TEST(Csv, EmptyCellsOfOwnTables) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::csv_test

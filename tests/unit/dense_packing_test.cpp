@@ -8,7 +8,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::dense_packing_test {
 namespace {
 
 const std::string material = R"(material = {restitution = 0.5, normal_stiffness = 1e4}
@@ -84,4 +84,4 @@ cylinder = [{point = [6, 6], radius = 5}]
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::dense_packing_test

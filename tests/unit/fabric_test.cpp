@@ -17,7 +17,7 @@
 #include "common/measure/temperature.hpp"
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::fabric_test {
 namespace {
 
 using test::cubic, test::face_centred, test::snapshot_of, test::square, test::touching, test::triangular;
@@ -268,4 +268,4 @@ TEST(Balance, ColumnUnderItsWeight) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::fabric_test

@@ -14,7 +14,7 @@
 #include "common/io/hdf5_tree.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet::cd {
+namespace galet::cd::fclib_test {
 namespace {
 
 using test::file_bytes;
@@ -365,4 +365,4 @@ TEST(Fclib, ProblemsOfOtherCodes) {
 }
 
 }  // namespace
-}  // namespace galet::cd
+}  // namespace galet::cd::fclib_test

@@ -11,7 +11,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::figure_svg_test {
 namespace {
 
 using test::file_bytes;
@@ -264,4 +264,4 @@ TEST(Figure, WithoutGnuplotDataAndScriptAreThere) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::figure_svg_test

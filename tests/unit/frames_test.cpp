@@ -14,7 +14,7 @@
 #include "tests/support/lattices.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::frames_test {
 namespace {
 
 using test::snapshot_of, test::TemporaryFolder;
@@ -268,4 +268,4 @@ TEST(FrameFiles, CollectionsListWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::frames_test

@@ -9,7 +9,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/brute_force.hpp"
 
-namespace galet {
+namespace galet::test::guard_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -186,4 +186,4 @@ TEST(Guard, BlowUp) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::guard_test

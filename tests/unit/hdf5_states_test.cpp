@@ -12,7 +12,7 @@
 #include "tests/support/lattices.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::hdf5_states_test {
 namespace {
 
 using test::snapshot_of, test::TemporaryFolder;
@@ -128,4 +128,4 @@ TEST(Hdf5States, AreReadByH5py) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::hdf5_states_test

@@ -16,7 +16,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::lammps_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -198,4 +198,4 @@ TEST(Lammps, PackingOfSpheresMadeByLammps) { expect_packing<3>("pack4k_hooke.dat
 TEST(Lammps, PackingOfDisksMadeByLammps) { expect_packing<2>("pack2d.data", 2025, 0, 3.55, 1.5e-4); }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::lammps_test

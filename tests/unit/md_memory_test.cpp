@@ -7,7 +7,7 @@
 #include "md/kernel/view.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace galet {
+namespace galet::test::md_memory_test {
 namespace {
 
 /// What a step works on. Exact: derived from the layout, which the constants must add up to.
@@ -68,4 +68,4 @@ TEST(MdMemory, PerGrainAndPerListedPairIsBounded) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::md_memory_test

@@ -17,7 +17,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::measure_test {
 namespace {
 
 using test::snapshot_of;
@@ -275,4 +275,4 @@ TEST(AutocorrelationTime, IsNothingWhereItCanNotBeKnown) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::measure_test

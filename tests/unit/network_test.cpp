@@ -13,7 +13,7 @@
 #include "common/measure/voronoi.hpp"
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::network_test {
 namespace {
 
 using test::cubic, test::face_centred, test::snapshot_of, test::square, test::touching, test::triangular;
@@ -334,4 +334,4 @@ TEST(Voronoi, OpenCellEndsAtItsFaces) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::network_test

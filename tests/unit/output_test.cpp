@@ -13,7 +13,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::output_test {
 namespace {
 
 Scene shear_scene() {
@@ -158,4 +158,4 @@ TEST_P(OutputOfEngines, SameAfterRestart_restart) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::output_test

@@ -12,7 +12,7 @@
 #include "tests/support/brute_force.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::packing_test {
 namespace {
 
 using test::put_bytes;
@@ -384,4 +384,4 @@ TEST(Packing, LammpsFile) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::packing_test

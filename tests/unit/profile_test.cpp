@@ -13,7 +13,7 @@
 #include "common/measure/stress.hpp"
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::profile_test {
 namespace {
 
 using test::cubic, test::face_centred, test::snapshot_of, test::square;
@@ -261,4 +261,4 @@ TEST(RadialProfile, StressOfSpokes) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::profile_test

@@ -11,7 +11,7 @@
 #include "tests/support/lattices.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::render_test {
 namespace {
 
 struct State {
@@ -71,4 +71,4 @@ TEST(Render, SaysWhereItLookedForItsScript) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::render_test

@@ -17,7 +17,7 @@
 #include "src/text_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::report_test {
 namespace {
 
 constexpr const char* scene_text = R"(title = "Shear <of> few & \"disks\""
@@ -137,4 +137,4 @@ TEST(ReportHtml, Pieces) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::report_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace galet {
+namespace galet::test::rigid_limit_test {
 namespace {
 
 constexpr double exact = 1e-13;  // rounding of a few operations on numbers of order 1
@@ -145,4 +145,4 @@ TEST(Deviation, AddsErrorsInSquares) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::rigid_limit_test

@@ -7,7 +7,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_bodies_test {
 namespace {
 
 const std::string bodies = R"(engine = "cd"
@@ -221,4 +221,4 @@ TEST(SceneBodies, EnginesRefuseWhatTheyCanNotMove) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_bodies_test

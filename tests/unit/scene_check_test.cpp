@@ -3,7 +3,7 @@
 
 #include "common/scene/check.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_check_test {
 namespace {
 
 TEST(SceneCheck, ReportsEveryBrokenRuleOfASceneBuiltInCode) {
@@ -65,4 +65,4 @@ TEST(SceneCheck, AcceptsTheLimitsOfPlacement) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_check_test

@@ -10,7 +10,7 @@
 #include "common/io/files.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_file_test {
 namespace {
 
 using Reals = std::vector<double>;
@@ -426,4 +426,4 @@ TEST(SceneFolder, CoversTheReferenceMaterial) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_file_test

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_material_test {
 namespace {
 
 TEST(SceneMaterial, ReadsEveryField) {
@@ -449,4 +449,4 @@ TEST(SceneMaterial, ListedGrainsAndPlanesNameTheirs) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_material_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scene_mutations.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_mutation_test {
 namespace {
 
 // The comparison of a scene with its text finds what it should, so that "no differences" means something.
@@ -39,4 +39,4 @@ TEST(SceneMutations, AreRefusedOrReadAsWritten) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_mutation_test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_override_test {
 namespace {
 
 using Reals = std::vector<double>;
@@ -111,4 +111,4 @@ TEST(SceneOverride, RefusesAnEntryThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_override_test

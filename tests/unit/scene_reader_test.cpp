@@ -3,7 +3,7 @@
 
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_reader_test {
 namespace {
 
 class SceneReader : public testing::TestWithParam<BadScene> {};
@@ -286,4 +286,4 @@ const auto name_of = [](const auto& bad) { return bad.param.name; };
 INSTANTIATE_TEST_SUITE_P(BadFields, SceneReader, testing::ValuesIn(bad_fields()), name_of);
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_reader_test

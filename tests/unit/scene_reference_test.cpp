@@ -7,7 +7,7 @@
 #include "common/io/scene_fields.hpp"
 #include "common/io/scene_file.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_reference_test {
 namespace {
 
 TEST(SceneReference, HasARowForEveryField) {
@@ -47,4 +47,4 @@ TEST(SceneFields, AreNamedOnceAndLieInASection) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_reference_test

@@ -5,7 +5,7 @@
 #include "common/scene/check.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_rules_test {
 namespace {
 
 /// Scenes of [[grain]] entries: the text that follows starts in line 4 (spheres: 5).
@@ -484,4 +484,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, SceneRules, testing::ValuesIn(bad_samples()), 
 INSTANTIATE_TEST_SUITE_P(Loadings, SceneRules, testing::ValuesIn(bad_loadings()), name_of);
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_rules_test

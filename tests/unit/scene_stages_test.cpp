@@ -5,7 +5,7 @@
 #include "common/scene/stages.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::scene_stages_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -268,4 +268,4 @@ initial.kind = "checkpoint"
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::scene_stages_test

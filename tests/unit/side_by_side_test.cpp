@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace galet {
+namespace galet::test::side_by_side_test {
 namespace {
 
 TEST(SideBySide, EachPieceOnceTheCostliestFirst) {
@@ -45,4 +45,4 @@ TEST(SideBySide, TellsTheShareOfTheWholeWork) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::side_by_side_test

@@ -10,7 +10,7 @@
 #include "tests/support/stages.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet::test {
+namespace galet::test::simulation_stages_test {
 namespace {
 
 class StagesOfBothEngines : public testing::TestWithParam<EngineKind> {};
@@ -250,4 +250,4 @@ TEST(Stages, CheckpointContactsThatDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::simulation_stages_test

@@ -9,7 +9,7 @@
 #include "src/engines.hpp"
 #include "src/restart.hpp"
 
-namespace galet {
+namespace galet::test::simulation_test {
 namespace {
 
 /// A small sheared gas: dense enough for contacts within the run.
@@ -403,4 +403,4 @@ TEST(restartFromText, FindsTheSameGrains) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::simulation_test

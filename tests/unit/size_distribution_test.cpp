@@ -7,7 +7,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/unit/scene_mistakes.hpp"
 
-namespace galet::test {
+namespace galet::test::size_distribution_test {
 namespace {
 
 constexpr int shares = 20000;
@@ -77,4 +77,4 @@ TEST(SizeDistribution, ByVolumeNeedsSomethingToShare) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::size_distribution_test

@@ -8,7 +8,7 @@
 #include "src/simulation.hpp"
 #include "tests/support/lattices.hpp"
 
-namespace galet {
+namespace galet::test::strain_split_test {
 namespace {
 
 using test::snapshot_of;
@@ -89,4 +89,4 @@ TEST(StrainSplit, OfMdInACrystalIsAllOfTypeI) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::strain_split_test

@@ -12,7 +12,7 @@
 #include "src/studies/published.hpp"
 #include "src/studies/verdict.hpp"
 
-namespace galet {
+namespace galet::test::study_statistics_test {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -140,4 +140,4 @@ TEST(StudyFit, BandOfAPublishedLine) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::study_statistics_test

@@ -17,7 +17,7 @@
 #include "src/studies/templates.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace galet {
+namespace galet::test::study_test {
 namespace {
 
 ShearScene tiny_scene(EngineKind engine, double inertial_number) {
@@ -234,4 +234,4 @@ TEST(Study, CostAtEqualErrorDoesNotDependOnTheLengthOfARun) {
 }
 
 }  // namespace
-}  // namespace galet
+}  // namespace galet::test::study_test

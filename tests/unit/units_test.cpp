@@ -5,7 +5,7 @@
 
 #include "common/core/near_match.hpp"
 
-namespace galet::test {
+namespace galet::test::units_test {
 namespace {
 
 TEST(Units, AreExactlyTheDecimalInSi) {
@@ -79,8 +79,8 @@ TEST(NearMatch, ListsNames) {
   EXPECT_EQ(alternatives({}), "");
   EXPECT_EQ(alternatives({"a"}), "a");
   EXPECT_EQ(alternatives({"a", "b"}), "a or b");
-  EXPECT_EQ(alternatives(quoted(std::vector<std::string>{"a", "b", "c"})), "\"a\", \"b\" or \"c\"");
+  EXPECT_EQ(alternatives(in_quotes(std::vector<std::string>{"a", "b", "c"})), "\"a\", \"b\" or \"c\"");
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::units_test

@@ -8,7 +8,7 @@
 #include "common/core/error.hpp"
 #include "src/verify/output.hpp"
 
-namespace galet::test {
+namespace galet::test::registry_test {
 namespace {
 
 using namespace verify;
@@ -100,4 +100,4 @@ TEST(Verify, JsonHasAnEntryPerCheck) {
 }
 
 }  // namespace
-}  // namespace galet::test
+}  // namespace galet::test::registry_test
