@@ -160,7 +160,7 @@ class GrainStates {
     }
   }
 
-  std::vector<Line> lines_, expected_;
+  StepArray<Line> lines_, expected_;
 };
 
 }  // namespace galet::md
