@@ -11,8 +11,8 @@
 // Rows at 1e3, 1e4 ... steps:
 //   energy      mean total energy over 512 states (3 steps apart) less that at the start of the run, over the energy of
 //               the kick; rest: the same of the elastic energy, over itself (rattlers fly on). A smooth force would
-//               leave it where it is; the kink of the force where a contact opens gives each opening an error of its
-//               own, a random walk, which heats: its variance goes with the fourth power of the step
+//               leave it where it is; the kink of the force where a contact opens or closes gives each of them an
+//               error of its own, and these heat; `half` tells how that goes with the step
 //   kinetic     mean kinetic energy, spins included, over the same
 //   moved       rms distance of the grains with a contact from their places at the start, the common motion taken off,
 //               over d; farthest: the largest

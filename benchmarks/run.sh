@@ -15,7 +15,7 @@
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
-#   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
+#   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about six minutes)
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
@@ -26,7 +26,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile plane_shear_2d)
 for name in "${names[@]}"; do
   out=benchmarks/results/$name
   mkdir -p "$out"
