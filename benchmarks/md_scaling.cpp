@@ -4,23 +4,26 @@
 //
 // A frictional packing of 1000 spheres (disks), periodic, at kappa = 1000 under pressure 1, is repeated along each
 // direction and numbered along Morton's curve: `hold` keeps the cell, `shear` shears it at constant volume with
-// inertial number 0.01. `shuffled` holds the same grains numbered at random, as a file may bring them. One thread; the
-// best of three batches, since the machine is shared (shear: one long batch, builds of the list included).
-// Columns: listed and touching pairs per grain; millions of grain-steps per second; ns per grain-step, per listed and
-// touching pair; ns per grain-step by stage; bytes that the engine's arrays hold per grain and per listed pair
-// (with room to grow and second buffers); the process's peak so far in MiB; `moved`: bytes per grain-step between
-// memory and processor if no array stays in a cache from one loop to the next; `stream`: GB/s of a sum of two long
-// arrays into a third (the line fetched before it is written counts); `floor`: ns per grain-step of `moved` at that
-// rate. Below the floor: caches helped.
-// What it can't tell: copies move alike, so that no larger structure forms; times of another machine.
-#include <chrono>
+// inertial number 0.01. `shuffled` holds the same grains numbered at random, as a file may bring them: md sorts them in
+// memory, so that it should cost what `hold` does. One thread, its processor time (stages: its shares by wall time);
+// the best of three batches, since the machine is shared (shear: one long batch, builds of the list included). Columns:
+// listed and touching pairs per grain; millions of grain-steps per second; ns per grain-step, per listed and touching
+// pair; ns per grain-step by stage; bytes that the engine's arrays hold per grain and per listed pair (with room to
+// grow and second buffers); the process's peak so far in MiB; `moved`: bytes per grain-step between memory and
+// processor if no array stays in a cache from one loop to the next; `stream`: GB/s of a sum of two long arrays into a
+// third (the line fetched before it is written counts); `floor`: ns per grain-step of `moved` at that rate. Below the
+// floor: caches helped. What it can't tell: copies move alike, so that no larger structure forms; times of another
+// machine.
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "benchmarks/dense_sample.hpp"
+#include "common/core/clock.hpp"
 #include "common/core/error.hpp"
 #include "common/core/random.hpp"
 #include "common/scene/spatial_order.hpp"
@@ -28,9 +31,6 @@
 
 namespace galet::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Options {
   int most = 1100000;
@@ -43,9 +43,9 @@ double stream_rate() {
   std::vector<double> a(count, 1.0), b(count, 2.0), c(count, 0.0);
   double best = 1e300;
   for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto start = Clock::now();
+    const double start = thread_seconds();
     for (std::size_t k = 0; k < count; ++k) c[k] = a[k] + b[k];
-    best = std::min(best, since(start));
+    best = std::min(best, thread_seconds() - start);
     std::swap(a, c);  // the sums are used
   }
   return 4 * sizeof(double) * static_cast<double>(count) / best;
@@ -98,12 +98,13 @@ Measured timed(Engine<D>& engine, int count, bool shear, bool quick) {
   if (shear) best.steps = std::max(3 * best.steps, quick ? 10L : 100L);
   for (int batch = 0; batch < (quick || shear ? 1 : 3); ++batch) {
     const Profile before = engine.profile();
-    const auto start = Clock::now();
+    const double start = thread_seconds(), start_of_wall = wall_seconds();
     engine.advance(best.steps);
-    const double seconds = since(start);
+    const double seconds = thread_seconds() - start, share = seconds / (wall_seconds() - start_of_wall);
     if (seconds >= best.seconds) continue;
     best.seconds = seconds;
-    for (int k = 0; k < 3; ++k) best.stage[k] = engine.profile().seconds(stages[k]) - before.seconds(stages[k]);
+    for (int k = 0; k < 3; ++k)
+      best.stage[k] = share * (engine.profile().seconds(stages[k]) - before.seconds(stages[k]));
   }
   return best;
 }

@@ -6,7 +6,7 @@
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
 #   presets          every ready scene with both engines side by side: stresses, Phi, z, mu*, energy budget, time (an hour or more)
 #   layouts          what each layout costs (Google Benchmark)
-#   md_scaling       speed, stages and memory of md from 1e3 to 64000 grains (half a minute; without --quick to 1e6)
+#   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains (about five minutes, 3 GB; --quick: to 64000, half a minute)
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   cd_piles         the contact solver on packings under gravity, 400 to 50000 contacts, and on pile3d where GALET_FCLIB holds it
@@ -20,6 +20,7 @@
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
+#   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about six minutes)
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
@@ -31,6 +32,7 @@ cmake --build --preset release
 bin=build/release
 names=("$@")
 [ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile verify plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -55,7 +57,7 @@ for name in "${names[@]}"; do
       done ;;
     presets) "$bin/benchmarks/presets" scenes | tee "$out/presets.csv" ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
-    md_scaling) "$bin/benchmarks/md_scaling" --quick | tee "$out/md_scaling.csv" ;;
+    md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
     md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;

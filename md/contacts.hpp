@@ -6,6 +6,7 @@
 
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
+#include "common/core/large_pages.hpp"
 #include "common/core/layout.hpp"
 #include "common/core/memory_use.hpp"
 #include "common/core/types.hpp"
@@ -18,6 +19,10 @@ namespace galet::md {
 struct alignas(64) Line {
   double value[8] = {};
 };
+
+/// Arrays that each step goes through.
+template <class T>
+using StepArray = std::vector<T, LargePages<T>>;
 
 /// What the pair of a row is doing.
 enum class RowState : std::uint8_t { apart, touching, attracted /**< across a gap, by a cohesion of range D0 */ };
@@ -271,10 +276,10 @@ class Contacts {
 
   std::size_t rows_ = 0;
   bool equal_pairs_ = false;
-  std::vector<RowBlock> blocks_ = std::vector<RowBlock>(1);
-  std::vector<RowConstants> constants_;
-  std::vector<Line> columns_, out_;
-  std::vector<int> slots_;
+  StepArray<RowBlock> blocks_ = StepArray<RowBlock>(1);
+  StepArray<RowConstants> constants_;
+  StepArray<Line> columns_, out_;
+  StepArray<int> slots_;
   std::vector<PlaneRow> plane_rows_;
   std::vector<Image<D>> images_ = std::vector<Image<D>>(1);
 };

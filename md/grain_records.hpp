@@ -68,7 +68,7 @@ class GrainRecords {
   double* record(int i) { return lines_.data()->value + static_cast<std::size_t>(i) * record_size(Y); }
   const double* record(int i) const { return lines_.data()->value + static_cast<std::size_t>(i) * record_size(Y); }
 
-  std::vector<Line> lines_;
+  StepArray<Line> lines_;
 };
 
 /// The motion that contacts see.

@@ -161,7 +161,7 @@ class GrainStates {
     }
   }
 
-  std::vector<Line> lines_, expected_;
+  StepArray<Line> lines_, expected_;
 };
 
 }  // namespace galet::md
