@@ -88,13 +88,25 @@ struct Rest {
   double moved = 0, kinetic = 0, overlap = 0;
 };
 
-/// What changes between two states of a packing at rest; rattlers apart.
+/// Grains that carry load: some contact force above 1e-3 of the mean one. (A grain that rolls in its cage may touch two
+/// others at an instant and is then no rattler by count.)
+std::vector<char> loaded(const Snapshot<2>& state) {
+  const ContactColumns<2>& contacts = *state.contacts;
+  double mean = 0;
+  for (const Vec<2>& force : contacts.force) mean += force.norm() / static_cast<double>(contacts.size());
+  std::vector<char> carries(state.grains(), 0);
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    if (contacts.force[c].norm() > 1e-3 * mean) carries[contacts.i[c]] = carries[contacts.j[c]] = 1;
+  return carries;
+}
+
+/// What changes between two states of a packing at rest, of the grains that carry load.
 Rest compare(const std::vector<Vec<2>>& before, const Snapshot<2>& state) {
   Rest rest;
-  const std::vector<char> loose = rattlers<2>(state, true);
+  const std::vector<char> carries = loaded(state);
   const Mat<2> inverse = state.cell->box.inverse();
   for (int i = 0; i < state.grains(); ++i) {
-    if (loose[i]) continue;
+    if (!carries[i]) continue;
     Vec<2> shift = inverse * (state.position[i] - before[i]);
     for (int a = 0; a < 2; ++a) shift[a] -= std::round(shift[a]);
     rest.moved = std::max(rest.moved, (state.cell->box * shift).norm());
