@@ -241,7 +241,7 @@ std::vector<Case> packing_cases() {
                  Report& report) { long_rest(kind, kind == EngineKind::md ? 10000000 : 1000000, report); }},
       {.name = "short_rest",
        .tags = {"packing", "drift"},
-       .effort = Effort::quick,
+       .effort = Effort::full,
        .scene = "the same for 1e5 steps (md) or 1e4 (cd)",
        .exact = "nothing moves",
        .trouble = "the same",
