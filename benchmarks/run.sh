@@ -15,6 +15,7 @@
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
+#   faults           runs of both engines killed at 200 random moments each: their checkpoints load and go on with the same bits
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md is then made from them.
@@ -52,6 +53,7 @@ for name in "${names[@]}"; do
     md_accuracy)
       speeds=benchmarks/results/lammps_speed/cases.csv
       if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
+    faults) GALET_KILLS=200 "$bin/tests/command/command_tests" --gtest_filter='*KilledAtAnyMoment*' | grep -v '^Note' | tee "$out/kills.txt" ;;
     solver_profile)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"
