@@ -73,7 +73,8 @@ TEST(ContactDirections, AnisotropyOfKnownSize) {
       // The sector's mean of the law: sin(w) / w with the width w = pi / sectors. Numbers of copies are rounded, by
       // 1/2 at most in 200; the midpoints of 60 angles per sector leave 1e-5.
       const double width = pi / sectors;
-      EXPECT_NEAR(rows[k].density, 1 + a * std::cos(2 * (rows[k].angle - direction)) * std::sin(width) / width, 2.52e-3);
+      EXPECT_NEAR(rows[k].density, 1 + a * std::cos(2 * (rows[k].angle - direction)) * std::sin(width) / width,
+                  2.52e-3);
     }
   }
 }
