@@ -21,6 +21,7 @@
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
 #   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about six minutes)
+#   faults           runs of both engines killed at 200 random moments each: their checkpoints load and go on with the same bits
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
@@ -76,6 +77,7 @@ for name in "${names[@]}"; do
     verify)
       # A case that fails is a result too.
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
+    faults) GALET_KILLS=200 "$bin/tests/command/command_tests" --gtest_filter='*KilledAtAnyMoment*' | grep -v '^Note' | tee "$out/kills.txt" ;;
     solver_profile)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"

@@ -36,14 +36,15 @@ hid_t memory_type() {
 
 void put_attribute(hid_t object, const char* name, const std::string& text) {
   if (text.empty()) return;
+  // Of variable length: h5py then hands out text, and not bytes.
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
-  checked(H5Tset_size(type, text.size()), "sizing a text type");
-  checked(H5Tset_strpad(type, H5T_STR_NULLPAD), "padding a text type");
+  checked(H5Tset_size(type, H5T_VARIABLE), "sizing a text type");
   checked(H5Tset_cset(type, H5T_CSET_UTF8), "setting the encoding of a text type");
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "making a data space");
   const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                          "making an attribute");
-  checked(H5Awrite(attribute, type, text.data()), "storing an attribute");
+  const char* letters = text.c_str();
+  checked(H5Awrite(attribute, type, &letters), "storing an attribute");
 }
 
 template <class Number>

@@ -192,9 +192,9 @@ TEST_P(Faults, FilesThatMayNotGrow) {
   write_file(in("scene.toml"), scene_of(engine(), 2));
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit small{24 * 1024, before.rlim_max};
+  const rlimit small{48 * 1024, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const int code = run_galet({"run", in("scene.toml"), "--out", in("out")}, in("small.log"));
+  const int code = run_galet({"run", in("scene.toml"), "--out", in("out"), "--set", "run.samples=10"}, in("small.log"));
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(code, 1);
   const std::string said = read_file(in("small.log"));

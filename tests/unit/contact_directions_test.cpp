@@ -43,7 +43,7 @@ TEST(ContactDirections, TriangularLattice) {
 // F_N = 1 + b cos 2 theta, F_T = c sin 2 theta: each sector holds the mean of these over its angles, and it does not
 // matter which of the two grains is called i.
 TEST(ContactDirections, AnisotropyOfKnownSize) {
-  constexpr int grid = 3600, sectors = 12;
+  constexpr int grid = 720, sectors = 12;
   const double a = 0.4, direction = 0.3, b = 0.25, c = -0.2;
   for (const double sign : {1.0, -1.0}) {
     Sample<2> sample = test::square(2);
@@ -53,7 +53,7 @@ TEST(ContactDirections, AnisotropyOfKnownSize) {
     double sum = 0;
     for (int k = 0; k < grid; ++k) {
       const double angle = (k + 0.5) * pi / grid;
-      const int copies = static_cast<int>(std::lround(10 * (1 + a * std::cos(2 * (angle - direction)))));
+      const int copies = static_cast<int>(std::lround(200 * (1 + a * std::cos(2 * (angle - direction)))));
       const double along = 1 + b * std::cos(2 * angle), across = c * std::sin(2 * angle);
       const Vec<2> n(std::cos(angle), std::sin(angle)), t(-n.y(), n.x());
       for (int copy = 0; copy < copies; ++copy) {
@@ -70,9 +70,11 @@ TEST(ContactDirections, AnisotropyOfKnownSize) {
       EXPECT_DOUBLE_EQ(rows[k].density, expected[k] * sectors / static_cast<double>(all));
       EXPECT_NEAR(rows[k].normal_force, normal[k] / expected[k] / (sum / static_cast<double>(all)), 1e-12);
       EXPECT_NEAR(rows[k].tangential_force, tangential[k] / expected[k] / (sum / static_cast<double>(all)), 1e-12);
-      // The sector's mean of the law: sin(w) / w with the width w = pi / sectors; copies round by 1/20 at most of 10.
+      // The sector's mean of the law: sin(w) / w with the width w = pi / sectors. Numbers of copies are rounded, by
+      // 1/2 at most in 200; the midpoints of 60 angles per sector leave 1e-5.
       const double width = pi / sectors;
-      EXPECT_NEAR(rows[k].density, 1 + a * std::cos(2 * (rows[k].angle - direction)) * std::sin(width) / width, 5e-3);
+      EXPECT_NEAR(rows[k].density, 1 + a * std::cos(2 * (rows[k].angle - direction)) * std::sin(width) / width,
+                  2.52e-3);
     }
   }
 }

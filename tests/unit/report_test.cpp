@@ -45,10 +45,9 @@ void run_into(const std::string& folder, const std::string& text, EngineKind kin
 
 TEST(Report, HoldsWhatTheFilesSay) {
   const test::TemporaryFolder folder;
-  run_into<2>(folder.path(), scene_text, EngineKind::md);
   run_into<2>(folder.path(), scene_text, EngineKind::cd);
   const report::RunFolder results = report::read_run_folder(folder.path());
-  ASSERT_EQ(results.runs.size(), 2u);
+  ASSERT_EQ(results.runs.size(), 1u);
   const std::string page = report::report_html(results);
 
   EXPECT_TRUE(has(page, "<h1>Shear &lt;of&gt; few &amp; &quot;disks&quot;</h1>"));
@@ -80,11 +79,10 @@ TEST(Report, HoldsWhatTheFilesSay) {
   if (run_program({"gnuplot", "-V"}).found) {
     EXPECT_FALSE(has(page, "need gnuplot"));
     // Each picture's parts are its own.
-    for (const char* engine : {"md", "cd"})
-      for (const char* name : {"mu_star", "forces", "profile_velocity"})
-        EXPECT_TRUE(has(page, fmt::format("id=\"{}-{}-gnuplot_plot_1\"", engine, name))) << engine << name;
+    for (const char* name : {"mu_star", "forces", "profile_velocity"})
+      EXPECT_TRUE(has(page, fmt::format("id=\"cd-{}-gnuplot_plot_1\"", name))) << name;
   }
-  EXPECT_TRUE(has(page, "id=\"md-sample-cell\"") && has(page, "url(#md-sample-cell)"));
+  EXPECT_TRUE(has(page, "id=\"cd-sample-cell\"") && has(page, "url(#cd-sample-cell)"));
   EXPECT_FALSE(has(page, "id=\"cell\""));
 }
 
