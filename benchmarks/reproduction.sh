@@ -13,6 +13,7 @@ only within two standard errors of ours; *NO*: neither. Where the source states 
 it. The size that was run stands in each head; a quick size is a first look. Scenes (`scenes/*.toml`) run alone with `galet run`.
 
 END
+if ! ls "$results"/*/report.txt >/dev/null 2>&1; then echo "No results are here yet."; fi
 # In the order of the chapter.
 for name in flow-law flow-kappa flow-friction flow-restitution cohesive-flow compression triaxial critical-state consolidation; do
   folder=$results/$name

@@ -31,7 +31,7 @@ TEST(StudyVerdict, WithinTheStatedUncertaintyOrTwoErrors) {
 
 TEST(StudyVerdict, TrendsMustShowThroughTheNoise) {
   const Published rises{"k", Claim::at_least, 0.5, 0, "s", ""}, falls{"k", Claim::at_most, 0.5, 0, "s", ""};
-  EXPECT_EQ(judge({0.7, 0.1}, rises), Verdict::agrees);
+  EXPECT_EQ(judge({0.71, 0.1}, rises), Verdict::agrees);
   EXPECT_EQ(judge({0.6, 0.1}, rises), Verdict::within_errors);
   EXPECT_EQ(judge({0.4, 0.1}, rises), Verdict::within_errors);
   EXPECT_EQ(judge({0.2, 0.1}, rises), Verdict::differs);
