@@ -237,7 +237,7 @@ class Assembly {
     if constexpr (Y.friction) {
       const bool grain_j = grains[1] < bodies.grains();
       problem.arm_i[k] = frame.stretch * bodies.radius[grains[0]];
-      problem.arm_j[k] = grain_j ? frame.stretch * bodies.radius[grains[1]] : 0;
+      problem.arm_j[k] = grain_j ? frame.stretch * bodies.radius[grains[1]] : surface_arm(bodies, grains[1]);
       const double arm_i = problem.arm_i[k], arm_j = problem.arm_j[k];
       const double turning =
           i == j ? (arm_i + arm_j) * (arm_i + arm_j) * problem.inverse_inertia[i]
@@ -249,6 +249,12 @@ class Assembly {
         problem.coupling[k] = i == j ? 0 : arm_i * inverse_i - arm_j * inverse_j;
       }
     }
+  }
+
+  /// l_j of a boundary, which tells the velocity of its surface from its spin.
+  static double surface_arm(const Bodies<Y>& bodies, int member) {
+    const Plane<D>& boundary = bodies.planes[member - bodies.grains()];
+    return boundary.curved() ? boundary.lever() : 0;
   }
 
   /// The same for a contact of a body that turns: its levers, and the whole block.
@@ -267,6 +273,8 @@ class Assembly {
         if (grain)
           lever = bodies.arm[grains[side]] +
                   (side == 0 ? 1 : -1) * frame.stretch * bodies.radius[grains[side]] * frame.normal;
+        else
+          lever = -surface_arm(bodies, grains[side]) * frame.normal;
         Mat<D> mobility = Mat<D>::Zero();
         if (body < problem.grains)
           mobility.diagonal().setConstant(problem.inverse_mass[body]);

@@ -113,12 +113,11 @@ class ElasticContacts {
   }
 
  private:
-  static double coefficient(const PairLaw& law, double radius_i, double radius_j) {
-    return normal_coefficient(law, radius_j < 0 ? radius_i : reduced_radius(radius_i, radius_j));
-  }
   static double coefficient(const Bodies<Y>& bodies, const PairLaw& law, const PairColumns<D>& pairs, std::size_t row) {
-    const int j = pairs.j[row];
-    return coefficient(law, bodies.radius[pairs.i[row]], j < bodies.grains() ? bodies.radius[j] : -1);
+    const int j = pairs.j[row], grains = bodies.grains();
+    const double radius = bodies.radius[pairs.i[row]];
+    return normal_coefficient(law, j < grains ? reduced_radius(radius, bodies.radius[j])
+                                              : reduced_radius_at(bodies.planes[j - grains], radius));
   }
 
   std::vector<double> deflection_;  ///< h*, by row

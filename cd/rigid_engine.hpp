@@ -197,7 +197,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     bool some = false;
     for (const Plane<D>& plane : bodies_.planes)
       problem_.mobility.push_back(plane.inverse_mass * plane.normal * plane.normal.transpose());
-    for (const RigidBody<D>& body : bodies_.rigid.body) problem_.mobility.push_back(body.mobility.asDiagonal());
+    for (const RigidBody<D>& body : bodies_.rigid.body) problem_.mobility.push_back(body.mobility);
     for (const Mat<D>& mobility : problem_.mobility) some = some || !mobility.isZero(0);
     if (!some) problem_.mobility.clear();
     if (bodies_.rigid.any_turning)
@@ -229,6 +229,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     if constexpr (Y.friction) {
       start_.spin = bodies_.spin;
       start_.spin.resize(count, zero_spin<D>());
+      for (std::size_t p = 0; p < planes; ++p) start_.spin[grains + p] = bodies_.planes[p].spin;
       free_.spin = start_.spin;
     }
     predict_rigid(dt);
@@ -245,8 +246,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     for (std::size_t b = 0; b < bodies_.rigid.body.size(); ++b) {
       const RigidBody<D>& body = bodies_.rigid.body[b];
       start_.velocity[before + b] = body.velocity;
-      free_.velocity[before + b] =
-          body.velocity + dt * body.mobility.cwiseProduct(body.force + body.mass * bodies_.gravity);
+      free_.velocity[before + b] = body.velocity + dt * (body.mobility * (body.force + body.mass * bodies_.gravity));
       if constexpr (Y.friction) {
         const SpinMap<D> mobility = turning_mobility(body);
         if (bodies_.rigid.any_turning) problem_.turning[before + b - bodies_.position.size()] = mobility;
@@ -287,7 +287,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
 
   void update_neighbours() {
     list_.configure(laws_.cohesion_range(), skin_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.group);
     history_.carry(list_);
   }
 

@@ -153,7 +153,7 @@ class BodyPass {
       states.hold(i);
     }
     const Vec<D> force = motion.force + body.force + body.mass * bodies.gravity;
-    const Vec<D> acceleration = body.mobility.cwiseProduct(force);
+    const Vec<D> acceleration = body.mobility * force;
     const Spin<D> turning = turning_rate(body, Spin<D>(motion.torque + body.torque));
     motion.expected = acceleration + extrapolation * (acceleration - motion.acceleration);
     motion.turning_expected = turning + extrapolation * (turning - motion.turning);

@@ -90,7 +90,8 @@ class ContactPass {
       for (const LaneSums& part : partial_) sums.add(part);
     if (kernel_.account)
       for (const PlaneRow& row : contacts.plane_rows())
-        sums.plane_power -= contacts.force(row.row).dot(bodies.planes[row.plane].velocity);
+        sums.plane_power -= contacts.force(row.row).dot(
+            tangent_plane<D>(bodies.planes[row.plane], seen.grains.position(row.grain)).velocity);
     return sums;
   }
 
@@ -101,8 +102,8 @@ class ContactPass {
     const std::vector<PlaneRow>& rows = contacts.plane_rows();
     parallel_ranges(rows.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        const Plane<D>& plane = bodies.planes[rows[k].plane];
         const Vec<D> grain = seen.grains.position(rows[k].grain);
+        const Plane<D> plane = tangent_plane<D>(bodies.planes[rows[k].plane], grain);
         const Vec<D> foot = grain - (grain - plane.point).dot(plane.normal) * plane.normal;
         seen.grains.put_position(rows[k].record, foot);
         seen.grains.put_velocity(rows[k].record, plane.velocity - seen.gradient * foot);

@@ -246,9 +246,20 @@ class SoftEngine final : public Engine<Y.dim> {
     bodies_.advance_loads(dt);
     if (bodies_.stress_driven()) accelerate_modes(virial, 0.5 * dt);
     if (!account_) return;
-    const double work =
-        sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume()) + body_pass_.drive_power(bodies_);
+    const double work = endless_fall() + sums.plane_power + drive_power(bodies_.modes, virial, bodies_.cell.volume()) +
+                        body_pass_.drive_power(bodies_);
     energy_account_.add({work, sums.normal, sums.sliding, sums.rolling, sums.pivoting, relaxed}, dt);
+  }
+
+  /// Power of gravity along periodic directions.
+  double endless_fall() const {
+    const Vec<D> gravity = bodies_.endless_gravity();
+    if (gravity.isZero(0)) return 0;
+    double power = 0;
+    for (int i = 0; i < bodies_.grains(); ++i)
+      if (bodies_.rigid.free(i)) power += bodies_.mass[i] * gravity.dot(states_.velocity(i));
+    for (const RigidBody<D>& body : bodies_.rigid.body) power += body.mass * gravity.dot(body.velocity);
+    return power;
   }
 
   /// Positions live in the records while steps are taken.
@@ -341,7 +352,7 @@ class SoftEngine final : public Engine<Y.dim> {
     list_bound_.set(0);
     fetch_positions();
     std::swap(contacts_, carried_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.of);
+    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.group);
     contacts_.carry(carried_, list_, bodies_.grains());
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();
@@ -363,7 +374,8 @@ class SoftEngine final : public Engine<Y.dim> {
       const int i = pairs.i[row], j = pairs.j[row];
       const bool plane = j >= grains;
       const double radius = bodies_.radius[i];
-      const double curvature = plane ? radius : reduced_radius(radius, bodies_.radius[j]);
+      const double curvature =
+          plane ? reduced_radius_at(bodies_.planes[j - grains], radius) : reduced_radius(radius, bodies_.radius[j]);
       const double coefficient = normal_coefficient(laws_[contacts_.law(row)], curvature);
       return {plane ? radius : radius + bodies_.radius[j], coefficient,
               critical_damping(kind_, coefficient, bodies_.reduced_mass(i, j))};

@@ -6,6 +6,7 @@
 #include "common/core/error.hpp"
 #include "common/measure/balance.hpp"
 #include "common/measure/coordination.hpp"
+#include "common/scene/loading.hpp"
 
 namespace galet {
 
@@ -38,7 +39,8 @@ EquilibriumTest<D>::EquilibriumTest(const Scene& scene, const Derived& derived)
   if (!derived.pressure) throw InputError("run.equilibrium needs loading.pressure: it is measured against P d^D");
   pressure_ = *derived.pressure;
   energy_unit_ = pressure_ * std::pow(derived.grains.mean_diameter, D);
-  for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity_[a] = scene.loading.gravity[a];
+  const std::vector<double> gravity = gravity_of(scene.loading);
+  for (std::size_t a = 0; a < gravity.size(); ++a) gravity_[a] = gravity[a];
   for (const CellMode<D>& mode : cell_modes<D>(scene, derived, 1, 1))
     if (mode.stress_driven) held_.push_back(mode);
 }

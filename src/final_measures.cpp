@@ -1,5 +1,6 @@
 #include "src/final_measures.hpp"
 
+#include "common/measure/radial_profile.hpp"
 #include "common/measure/voronoi.hpp"
 
 namespace galet {
@@ -66,14 +67,34 @@ void ProfileAverage::restore(const Archive& archive) {
   states_ = integer_column(archive, "run.profile_states").at(0);
 }
 
+template <int D>
+std::vector<ProfileRow> scene_profile(const Scene& scene, const Snapshot<D>& snapshot) {
+  const OutputSpec& output = scene.output;
+  if (output.profile_centre.empty())
+    return layer_profile(snapshot, output.profile_layers, static_cast<int>(output.profile_direction));
+  const Vec<D> centre = Eigen::Map<const Vec<D>>(output.profile_centre.data());
+  std::vector<ProfileRow> rows;
+  for (const RingRow& ring :
+       radial_profile<D>(snapshot, centre, output.profile_radii[0], output.profile_radii[1], output.profile_layers))
+    rows.push_back({ring.position, ring.grains, ring.velocity, Vec<3>(0, ring.shear_rate, 0), ring.fluctuation,
+                    ring.temperature, ring.solid_fraction, ring.stress});
+  return rows;
+}
+
+template std::vector<ProfileRow> scene_profile<2>(const Scene&, const Snapshot<2>&);
+template std::vector<ProfileRow> scene_profile<3>(const Scene&, const Snapshot<3>&);
+
 namespace {
 
 template <int D>
 void put_profile(FinalMeasures& result, const Scene& scene, const Snapshot<D>& snapshot, const ProfileAverage& mean) {
   const int direction = static_cast<int>(scene.output.profile_direction);
+  result.profile_by_rings = !scene.output.profile_centre.empty();
   result.profile = mean.mean();
   result.profile_states = mean.states();
-  if (result.profile.empty()) result.profile = layer_profile(snapshot, scene.output.profile_layers, direction);
+  if (result.profile.empty()) result.profile = scene_profile(scene, snapshot);
+  result.profile_normal = Vec<3>::UnitX();
+  if (result.profile_by_rings) return;
   const Mat<D> inverse = snapshot.cell->box.inverse();
   result.profile_normal.setZero();
   result.profile_normal.head<D>() = inverse.row(direction).normalized().transpose();

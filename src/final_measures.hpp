@@ -17,6 +17,10 @@
 
 namespace galet {
 
+/// The profile that the scene asks for: by layers, or by rings.
+template <int D>
+std::vector<ProfileRow> scene_profile(const Scene& scene, const Snapshot<D>& snapshot);
+
 /// Sums of profiles taken at different times.
 class ProfileAverage {
  public:
@@ -37,7 +41,8 @@ struct FinalMeasures {
   std::optional<ForceDistribution> forces;
   std::vector<GapRow> gaps;  ///< gaps in units of d
   std::vector<ProfileRow> profile;
-  long profile_states = 0;  ///< rows that the profile is a mean of; 0: it is that of the last state
+  long profile_states = 0;        ///< rows that the profile is a mean of; 0: it is that of the last state
+  bool profile_by_rings = false;  ///< components are (r, theta, z), not (x, y, z)
   Vec<3> profile_normal = Vec<3>::UnitY();
   std::vector<double> local_solid_fraction;  ///< of each grain
   std::optional<Indeterminacy> indeterminacy;

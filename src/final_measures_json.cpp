@@ -142,10 +142,13 @@ CsvTable profile_table(const FinalMeasures& measures, const MeasureScale& scale)
   table.comments = {measures.profile_states > 0
                         ? fmt::format("mean of {} states, one per row of the series", measures.profile_states)
                         : std::string("of the last state"),
-                    "y: middle of the layer; grains: centres in it; shear_rate: of the velocity along the layer",
-                    "mu_star, I: of the stress across the layer"};
-  table.columns = {{"y", ""}, {"grains", ""}};
-  const std::string axes = "xyz";
+                    measures.profile_by_rings
+                        ? "r: middle of the ring; grains: centres in it; t: along theta; stresses: of contacts"
+                        : "y: middle of the layer; grains: centres in it; shear_rate: of the velocity along the layer",
+                    measures.profile_by_rings ? "mu_star, I: of the stress across the ring"
+                                              : "mu_star, I: of the stress across the layer"};
+  table.columns = {{measures.profile_by_rings ? "r" : "y", ""}, {"grains", ""}};
+  const std::string axes = measures.profile_by_rings ? "rtz" : "xyz";
   const std::size_t dimension = static_cast<std::size_t>(scale.dimension);
   for (std::size_t a = 0; a < dimension; ++a) table.columns.push_back({std::string("v_") + axes[a], ""});
   for (const char* name : {"shear_rate", "Phi", "fluctuation", "T"}) table.columns.push_back({name, ""});

@@ -32,7 +32,10 @@ double scene_speed(const Scene& scene, const Derived& derived, const Sample<D>& 
   const auto count = [&](double other) { speed = std::max(speed, other); };
   const auto count_force = [&](double force) { count(std::sqrt(std::abs(force) * diameter / mass)); };
   for (const CellMode<D>& mode : cell_modes(scene, derived, start)) count(std::abs(mode.rate) * size);
-  for (const Plane<D>& plane : start.planes) count(plane.velocity.norm()), count_force(plane.force);
+  for (const Plane<D>& plane : start.planes) {
+    count(plane.velocity.norm()), count_force(plane.force);
+    if (plane.curved()) count(std::sqrt(squared(plane.spin)) * plane.radius);
+  }
   for (const BodySpec& body : scene.bodies) {
     count(norm(body.velocity)), count(norm(body.spin) * size);
     count_force(norm(body.force)), count_force(norm(body.torque) / diameter);
@@ -82,9 +85,9 @@ void Guard<D>::check_grains(const Snapshot<D>& snapshot) const {
           snapshot.time, i, speed, speed / own_speed_, own_speed_, bounds_.speed, smaller_step_));
     energy += 0.5 * snapshot.mass[i] * speed * speed;
     for (std::size_t p = 0; p < snapshot.planes.size(); ++p)
-      if ((snapshot.position[i] - snapshot.planes[p].point).dot(snapshot.planes[p].normal) < 0)
-        throw RunError(
-            fmt::format("at time {:.6g} grain {} is behind plane {}: {}", snapshot.time, i, p, smaller_step_));
+      if (distance_from<D>(snapshot.planes[p], snapshot.position[i]) < 0)
+        throw RunError(fmt::format("at time {:.6g} grain {} is behind {}: {}", snapshot.time, i,
+                                   boundary_name(snapshot.planes, p), smaller_step_));
   }
   const double unit = 0.5 * mass_ * own_speed_ * own_speed_;
   const double mean = snapshot.grains() > 0 ? energy / snapshot.grains() : 0;

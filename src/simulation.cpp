@@ -8,6 +8,7 @@
 #include "common/core/clock.hpp"
 #include "common/core/error.hpp"
 #include "common/io/checkpoint_sample.hpp"
+#include "common/scene/loading.hpp"
 #include "common/scene/packing.hpp"
 #include "common/scene/stages.hpp"
 #include "src/engines.hpp"
@@ -129,7 +130,7 @@ void Simulation<D>::start_stage() {
   scale_ = measure_scale(course_.derived(), kind_ == EngineKind::cd);
   scale_.energy_at_start = energy_at_start;
   scale_.asked = MeasureSet(scene_.output.measures);
-  const std::vector<double>& gravity = course_.scene().loading.gravity;
+  const std::vector<double> gravity = gravity_of(course_.scene().loading);
   for (std::size_t a = 0; a < gravity.size(); ++a) scale_.gravity[a] = gravity[a];
   for (const int body : start_.body) scale_.held.push_back(body >= 0 ? 1 : 0);
   const double steps_per_frame = schedule_.steps_per_frame;
@@ -365,8 +366,7 @@ std::optional<Ending> Simulation<D>::take_sample(Pace& pace) {
     const long first = course_.first_step(), length = course_.last_step() - first;
     if (scale_.asked.has(MeasureKind::profile) && course_.is_last() &&
         static_cast<double>(engine_->steps() - first) > scene_.run.average_from * static_cast<double>(length))
-      profile_.add(layer_profile(engine_->snapshot(), scene_.output.profile_layers,
-                                 static_cast<int>(scene_.output.profile_direction)));
+      profile_.add(scene_profile(scene_, engine_->snapshot()));
     if (pace.copy_due()) keep_last_good();
   }
   const double interval = schedule_.steps_per_sample * engine_->dt();

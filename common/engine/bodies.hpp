@@ -11,6 +11,7 @@
 #include "common/geometry/plane.hpp"
 #include "common/geometry/wrap.hpp"
 #include "common/scene/derive.hpp"
+#include "common/scene/loading.hpp"
 #include "common/scene/rigid_bodies.hpp"
 #include "common/scene/sample.hpp"
 
@@ -69,7 +70,7 @@ struct Bodies {
       follow();
     }
     if (!modes.empty()) cell.rate = velocity_gradient(modes);
-    for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
+    set_gravity(scene);
   }
 
   /// Another loading from now on: new modes and gravity. Components driven in stress keep the rate that they have.
@@ -81,8 +82,21 @@ struct Bodies {
     for (CellMode<D>& mode : modes)
       if (mode.stress_driven) mode.rate = rate.cwiseProduct(mode.direction).sum() / mode.direction.squaredNorm();
     cell.rate = velocity_gradient(modes);
+    set_gravity(scene);
+  }
+
+  void set_gravity(const Scene& scene) {
     gravity.setZero();
-    for (std::size_t a = 0; a < scene.loading.gravity.size(); ++a) gravity[a] = scene.loading.gravity[a];
+    const std::vector<double> given = gravity_of(scene.loading);
+    for (std::size_t a = 0; a < given.size(); ++a) gravity[a] = given[a];
+  }
+
+  /// Gravity along periodic directions, where heights mean nothing: what it gives is work, not an energy.
+  Vec<D> endless_gravity() const {
+    Vec<D> part = gravity;
+    for (int a = 0; a < D; ++a)
+      if (!cell.periodic[a]) part[a] = 0;
+    return part;
   }
 
   /// Targets that change with time.
@@ -134,16 +148,17 @@ struct Bodies {
   /// Kinetic, rotational, cell and gravity parts of the energy. Grains of rigid bodies count by these.
   EnergyParts energy() const {
     EnergyParts parts;
+    const Vec<D> steady = gravity - endless_gravity();
     for (int i = 0; i < grains(); ++i) {
       if (!rigid.free(i)) continue;
       parts.kinetic += 0.5 * mass[i] * velocity[i].squaredNorm();
-      parts.gravity -= mass[i] * gravity.dot(position[i]);
+      parts.gravity -= mass[i] * steady.dot(position[i]);
       if constexpr (Y.friction) parts.rotational += 0.5 * inertia[i] * squared(spin[i]);
     }
     for (const RigidBody<D>& body : rigid.body) {
       parts.kinetic += 0.5 * body.mass * body.velocity.squaredNorm();
       parts.rotational += 0.5 * dot(body.spin, angular_momentum(body));
-      parts.gravity -= body.mass * gravity.dot(body.centre);
+      parts.gravity -= body.mass * steady.dot(body.centre);
     }
     for (const CellMode<D>& mode : modes)
       if (mode.stress_driven) parts.cell += 0.5 * mode.inertia * mode.rate * mode.rate;

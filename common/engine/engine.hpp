@@ -23,7 +23,7 @@ struct EnergyParts {
   double elastic_tangential = 0;
   double elastic_rolling = 0;  ///< rolling and pivoting springs
   double cohesive = 0;         ///< of attractive forces, zero for grains out of their range
-  double gravity = 0;          ///< - sum of m gravity.x
+  double gravity = 0;          ///< - sum of m gravity.x, along directions that are not periodic
   double total() const {
     return kinetic + rotational + cell + elastic_normal + elastic_tangential + elastic_rolling + cohesive + gravity;
   }

@@ -28,9 +28,10 @@ inline ContactFrame<D> grain_frame(const Vec<D>& branch, double distance_squared
   return frame;
 }
 
-/// Frame of a grain and a plane. The branch ends on the plane; the plane has no lever arm.
+/// Frame of a grain and a boundary. The branch ends on the boundary.
 template <int D>
-inline ContactFrame<D> plane_frame(const Vec<D>& position, double radius, const Plane<D>& plane) {
+inline ContactFrame<D> plane_frame(const Vec<D>& position, double radius, const Plane<D>& boundary) {
+  const Plane<D> plane = tangent_plane(boundary, position);
   ContactFrame<D> frame;
   frame.distance = (position - plane.point).dot(plane.normal);
   frame.normal = -plane.normal;

@@ -84,7 +84,7 @@ struct RigidBody {
   // What does not change.
   double mass = 1;
   Spin<D> moments = one_spin();      ///< of inertia about c, principal ones in 3D
-  Vec<D> mobility = Vec<D>::Zero();  ///< 1 / mass along the free directions, 0 along the others
+  Mat<D> mobility = Mat<D>::Zero();  ///< 1 / mass along the free directions, 0 across them
   Turning turning = Turning::imposed;
   Vec<D> axis = Vec<D>::Unit(D - 1);  ///< about_axis: e
   Vec<D> force = Vec<D>::Zero();      ///< external, along free directions

@@ -33,7 +33,7 @@ std::string to_string(const Interval& interval);
 using FieldTarget =
     std::variant<bool*, int*, std::uint64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*,
                  std::vector<bool>*, std::vector<std::string>*, EngineKind*, SizeKind*, InitialKind*, LoadingKind*,
-                 Axis*, DampingConvention*, NormalLaw*, CohesionLaw*>;
+                 Axis*, DampingConvention*, NormalLaw*, CohesionLaw*, BodyShape*>;
 
 struct SceneField {
   std::string path;                         ///< "grains.count"; without index in lists: "drive.rate"

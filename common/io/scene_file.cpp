@@ -15,6 +15,7 @@
 #include "common/io/scene_presence.hpp"
 #include "common/io/toml_tree.hpp"
 #include "common/io/unknown_name.hpp"
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/check.hpp"
 
 namespace galet {
@@ -223,7 +224,7 @@ Scene read(std::string_view text, const std::string& name, const std::string& di
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
-  return std::move(scene);
+  return with_bodies_apart(std::move(scene));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/measure_names.hpp"
 
 namespace galet {
@@ -25,12 +26,14 @@ std::vector<Finding> check_presence(const Scene& scene, const std::function<bool
   exclusive("cd.dt", "cd.dt_factor");
   if (drawn) exclusive("cell.size", "initial.solid_fraction");
   idle(drawn, "initial.solid_fraction", "has no effect on listed grains and packings");
-  idle(drawn, "grains.diameter", "has no effect on listed grains and packings, which have their own");
+  idle(drawn || any_shape(scene), "grains.diameter",
+       "has no effect on listed grains and packings, which have their own");
   if (scene.grains.diameter.kind == SizeKind::discrete)
     idle(false, "grains.diameter.mean", "has no effect with distribution = \"discrete\"");
   if (drawn) needed_in_si("grains.diameter");
   if (!MeasureSet(scene.output.measures).has(MeasureKind::profile))
-    for (const char* path : {"output.profile_layers", "output.profile_direction"})
+    for (const char* path :
+         {"output.profile_layers", "output.profile_direction", "output.profile_centre", "output.profile_radii"})
       if (written(path))
         findings.push_back({path, fmt::format("{} needs \"profile\" in output.measures", path), {"output.measures"}});
   for (std::size_t k = 0; k < scene.grains.listed.size(); ++k) needed_in_si(fmt::format("grain[{}].diameter", k));

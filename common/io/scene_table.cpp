@@ -67,12 +67,17 @@ void add_diameter(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.kind; },
                   .choices = {"monodisperse", "uniform", "discrete"},
                   .required = true,
-                  .doc = "of the diameters, by number"});
+                  .doc = "of the diameters"});
+  rows.push_back({.path = "grains.diameter.by",
+                  .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.by_volume; },
+                  .choices = {"number", "volume"},
+                  .doc = "uniform, discrete: shares are of the number of grains, or of their volume (number ~ volume "
+                         "/ diameter^D; d is the mean by number all the same)"});
   rows.push_back({.path = "grains.diameter.mean",
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.mean; },
                   .quantity = Quantity::length,
                   .range = above(0),
-                  .doc = "monodisperse, uniform: the mean diameter d"});
+                  .doc = "monodisperse, uniform: the mean diameter d (by volume: the middle of the range)"});
   rows.push_back({.path = "grains.diameter.spread",
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.spread; },
                   .range = {.low = 0, .high = 1, .high_open = true},
@@ -85,7 +90,7 @@ void add_diameter(Rows& rows) {
   rows.push_back({.path = "grains.diameter.fractions",
                   .target = [](Scene& s) -> FieldTarget { return &s.grains.diameter.fractions; },
                   .range = {.low = 0, .high = 1, .low_open = true},
-                  .doc = "discrete: the share of each by number; their sum is 1"});
+                  .doc = "discrete: the share of each; their sum is 1"});
 }
 
 void add_listed_grains(Rows& rows) {
@@ -129,19 +134,23 @@ void add_initial(Rows& rows) {
   rows.push_back(
       {.path = "initial.kind",
        .target = [](Scene& s) -> FieldTarget { return &s.initial.kind; },
-       .choices = {"lattice", "gas", "compressed_gas", "packing", "listed", "checkpoint"},
+       .choices = {"lattice", "gas", "compressed_gas", "packing", "listed", "checkpoint", "dense"},
        .fallback = "`\"listed\"` if there are [[grain]] entries, else `\"gas\"`",
        .doc = "`lattice`: square or cubic, slightly shaken; `gas`: random, no two grains touching; "
               "`compressed_gas`: a gas compressed isotropically to `loading.pressure` before the run; "
               "`packing`: read from a file; `listed`: the [[grain]] entries; `checkpoint`: the state that another "
-              "run has left, with its cell, its velocities and what its contacts remember"});
+              "run has left, with its cell, its velocities and what its contacts remember; `dense`: dense and "
+              "disordered by geometry alone, no two grains touching. [[body]] entries with a shape, or with [[grain]] "
+              "entries of their own, may stand beside `gas` and `dense`, between and around whose bodies grains are "
+              "placed"});
   rows.push_back({.path = "initial.solid_fraction",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.solid_fraction; },
                   .symbol = "Phi",
                   .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},
                   .fallback = "0.5; 0.3 for a gas of spheres",
-                  .doc = "lattice, gas, compressed_gas: where the grains are first placed; a gas reaches 0.5 in 2D "
-                         "and 0.33 in 3D, a lattice of equal grains 0.78 and 0.52"});
+                  .doc = "lattice, gas, compressed_gas, dense: where the grains are first placed; a gas reaches 0.5 in "
+                         "2D and 0.33 in 3D, a lattice of equal grains 0.78 and 0.52, a dense packing 0.83 (with a "
+                         "spread of sizes) and 0.62"});
   rows.push_back({.path = "initial.speed",
                   .target = [](Scene& s) -> FieldTarget { return &s.initial.speed; },
                   .quantity = Quantity::velocity,
@@ -186,39 +195,6 @@ void add_cell(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.cell.inertia_factor; },
                   .range = above(0),
                   .doc = "multiplies the inertia of the stress-driven components; results must not depend on it"});
-}
-
-void add_planes(Rows& rows) {
-  rows.push_back({.path = "plane.point",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().point; },
-                  .quantity = Quantity::length,
-                  .required = true,
-                  .doc = "a point of the plane"});
-  rows.push_back({.path = "plane.normal",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().normal; },
-                  .required = true,
-                  .doc = "points to the grains' side; any length but 0"});
-  rows.push_back({.path = "plane.velocity",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().velocity; },
-                  .quantity = Quantity::velocity,
-                  .fallback = "at rest",
-                  .doc = "imposed velocity"});
-  rows.push_back({.path = "plane.mass",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().mass; },
-                  .quantity = Quantity::mass,
-                  .range = above(0),
-                  .fallback = "none: its velocity is imposed",
-                  .doc = "cd: the plane is a body of this mass that moves freely along its normal (`velocity` is then "
-                         "where it starts, and stays imposed across the normal)"});
-  rows.push_back({.path = "plane.force",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().force; },
-                  .quantity = Quantity::force,
-                  .doc = "on a plane with mass, along its normal: > 0 presses it against the grains. Gravity does not "
-                         "act on planes"});
-  rows.push_back({.path = "plane.material",
-                  .target = [](Scene& s) -> FieldTarget { return &s.planes.back().material; },
-                  .fallback = "[material]",
-                  .doc = "name of its material"});
 }
 
 void add_engines(Rows& rows) {
@@ -316,7 +292,7 @@ const std::vector<SceneField>& scene_fields() {
     Rows rows;
     for (const auto add :
          {add_top,    add_grains,  add_diameter, add_listed_grains, add_groups, add_material, add_other_materials,
-          add_pairs,  add_initial, add_cell,     add_planes,        add_bodies, add_loading,  add_drives,
+          add_pairs,  add_initial, add_cell,     add_boundaries,    add_bodies, add_loading,  add_drives,
           add_stages, add_engines, add_run,      add_output,        add_guard,  add_compare})
       add(rows);
     return rows;
@@ -358,12 +334,19 @@ const std::vector<SceneSection>& scene_sections() {
        .list = true,
        .doc = "A plane boundary, one table per plane; parallel to the periodic directions.",
        .append = [](Scene& s) { s.planes.emplace_back(); }},
+      {.name = "cylinder",
+       .list = true,
+       .doc =
+           "A smooth cylinder as a boundary (a circle in 2D), one table per cylinder, with grains inside or outside.",
+       .append = [](Scene& s) { s.cylinders.emplace_back(); }},
       {.name = "body",
        .list = true,
-       .doc = "A rigid body, one table per body: the [[grain]] entries that name it, glued together (a clump, a rough "
-              "wall, a rough cylinder). In each direction it moves, and about each axis it turns, as imposed or as "
-              "forces make it. Rotations have one component in 2D and three in 3D. Gravity acts on it where it is "
-              "free. Its grains don't act on each other, and may overlap.",
+       .doc =
+           "A rigid body, one table per body: the [[grain]] entries that name it, glued together (a clump, a rough "
+           "wall, a rough cylinder), or the grains of its `shape`, whose diameters are drawn as those of the others. "
+           "In each direction it moves, and about each axis it turns, as imposed or as "
+           "forces make it. Rotations have one component in 2D and three in 3D. Gravity acts on it where it is "
+           "free. Its grains don't act on each other, and may overlap.",
        .append = [](Scene& s) { s.bodies.emplace_back(); }},
       {.name = "loading", .doc = "What is imposed on the sample."},
       {.name = "drive",

@@ -13,6 +13,9 @@ inline Interval above(double low) { return {.low = low, .low_open = true}; }
 inline Interval at_least(double low) { return {.low = low}; }
 inline Interval between(double low, double high) { return {.low = low, .high = high}; }
 
+// scene_table_boundaries.cpp
+void add_boundaries(Rows& rows);
+
 // scene_table_bodies.cpp
 void add_bodies(Rows& rows);
 

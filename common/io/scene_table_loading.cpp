@@ -89,6 +89,13 @@ void add_loading_rows(Rows& rows, const std::string& table, const char* pressure
                   .quantity = Quantity::acceleration,
                   .fallback = "none",
                   .doc = "acceleration, per direction; 0 in periodic directions"});
+  rows.push_back({.path = table + ".inclination",
+                  .target = [](Scene& s) -> FieldTarget { return &Of(s).inclination; },
+                  .symbol = "theta",
+                  .range = between(-180, 180),
+                  .fallback = "0",
+                  .doc = "degrees by which gravity is turned from the last direction towards x, also where x is "
+                         "periodic: the slope of an inclined plane"});
 }
 
 template <LoadingSpec& (*Of)(Scene&)>

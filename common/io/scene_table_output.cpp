@@ -42,6 +42,18 @@ void add_output(Rows& rows) {
                   .target = [](Scene& s) -> FieldTarget { return &s.output.profile_direction; },
                   .choices = {"x", "y", "z"},
                   .doc = "cell vector that the measure `profile` cuts into layers"});
+  rows.push_back({.path = "output.profile_centre",
+                  .target = [](Scene& s) -> FieldTarget { return &s.output.profile_centre; },
+                  .quantity = Quantity::length,
+                  .fallback = "layers",
+                  .doc = "the measure `profile` goes by `profile_layers` rings about this place (3D: about an axis "
+                         "along z), with components (r, theta, z) and stresses of contacts only"});
+  rows.push_back({.path = "output.profile_radii",
+                  .target = [](Scene& s) -> FieldTarget { return &s.output.profile_radii; },
+                  .quantity = Quantity::length,
+                  .range = at_least(0),
+                  .fallback = "needed with `profile_centre`",
+                  .doc = "where the rings begin and end"});
   rows.push_back({.path = "output.frames",
                   .target = [](Scene& s) -> FieldTarget { return &s.output.frames; },
                   .range = at_least(0),

@@ -91,6 +91,21 @@ void add_grains(const Snapshot<D>& snapshot, const Vec<2>& centre, Rings& rings)
   }
 }
 
+/// Fluctuations about the rings' mean velocities, which are known.
+template <int D>
+void add_fluctuations(const Snapshot<D>& snapshot, const Vec<2>& centre, Rings& rings) {
+  for (int i = 0; i < snapshot.grains(); ++i) {
+    const Vec<2> across = snapshot.position[i].template head<2>() - centre;
+    const int ring = rings.of(across.norm());
+    if (ring < 0) continue;
+    RingRow& row = rings.rows[ring];
+    const Vec<D> velocity = snapshot.velocity[i] + snapshot.cell->rate * snapshot.position[i];
+    const double square = (directions(across) * padded<D>(velocity) - row.velocity).squaredNorm() / (D * row.grains);
+    row.fluctuation += square, row.temperature += snapshot.mass[i] * square;
+  }
+  for (RingRow& row : rings.rows) row.fluctuation = std::sqrt(row.fluctuation);
+}
+
 }  // namespace
 
 template <int D>
@@ -112,6 +127,7 @@ std::vector<RingRow> radial_profile(const Snapshot<D>& snapshot, const Vec<D>& c
     row.stress /= volume;
     if (row.grains > 0) row.velocity /= row.grains;
   }
+  add_fluctuations(snapshot, Vec<2>(centre.template head<2>()), cut);
   for (int k = 0; k < rings; ++k) {
     const int below = k > 0 && cut.rows[k - 1].grains > 0 ? k - 1 : k;
     const int above = k + 1 < rings && cut.rows[k + 1].grains > 0 ? k + 1 : k;

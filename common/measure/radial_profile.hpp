@@ -1,6 +1,7 @@
 // Profile by distance from an axis: rings of equal width about a centre (disks), or about an axis along z (spheres).
 //   velocity        mean over the ring's grains (by centre) of the velocity's radial, tangential and axial components
 //   shear_rate      d v_theta / dr - v_theta / r, from the neighbouring rings' means (one-sided at the ends)
+//   fluctuation, temperature  as by layers (profile.hpp), of those components
 //   solid_fraction  volume of grains inside the ring (each grain cut exactly at the ring's circles) / ring volume
 //   stress          in components (r, theta, z): sum over contacts of F (x) b, each piece of the branch in the ring and
 //                   the directions of its middle, over the ring volume; contact part only. Positive in compression.
@@ -20,6 +21,8 @@ struct RingRow {
   int grains = 0;                    ///< centres in the ring
   Vec<3> velocity = Vec<3>::Zero();  ///< (r, theta, z); 0 in a ring without grains
   double shear_rate = 0;
+  double fluctuation = 0;  ///< sqrt(<|v - <v>|^2> / D) of the components (r, theta, z)
+  double temperature = 0;  ///< <m |v - <v>|^2> / D, an energy
   double solid_fraction = 0;
   Mat<3> stress = Mat<3>::Zero();  ///< (r, theta, z)
 };

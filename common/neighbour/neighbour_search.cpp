@@ -208,7 +208,7 @@ void NeighbourSearch<D>::search_grain(int i, const Sight& sight, Findings& findi
   std::sort(findings.own.begin() + static_cast<std::ptrdiff_t>(begin), findings.own.end());
   for (std::size_t p = 0; p < sight.planes.size(); ++p) {
     const ContactFrame<D> frame = plane_frame<D>(sight.position[i], sight.radius[i], sight.planes[p]);
-    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind plane {}", i, p));
+    if (frame.distance < 0) throw RunError(fmt::format("grain {} is behind {}", i, boundary_name(sight.planes, p)));
     if (frame.gap < sight.limit) findings.own.push_back({static_cast<int>(sight.position.size() + p), Image<D>{}});
   }
 }

@@ -8,7 +8,9 @@
 
 #include "common/core/near_match.hpp"
 #include "common/core/types.hpp"
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/check_report.hpp"
+#include "common/scene/size_distribution.hpp"
 
 namespace galet {
 
@@ -18,33 +20,17 @@ namespace {
 
 bool gaseous(InitialKind kind) { return kind == InitialKind::gas || kind == InitialKind::compressed_gas; }
 
+bool glued(const ListedGrain& grain) { return !grain.body.empty(); }
+
 bool all_periodic(const Scene& scene) {
   return std::find(scene.cell.periodic.begin(), scene.cell.periodic.end(), false) == scene.cell.periodic.end();
 }
 
-/// Mean of diameter^power over the distribution, power = 2 or 3.
-double mean_power(const SizeDistribution& sizes, int power) {
-  if (sizes.kind == SizeKind::discrete) {
-    double sum = 0;
-    for (std::size_t k = 0; k < sizes.diameters.size(); ++k)
-      sum += sizes.fractions[k] * std::pow(sizes.diameters[k], power);
-    return sum;
-  }
-  const double s2 = sizes.kind == SizeKind::uniform ? sizes.spread * sizes.spread : 0;
-  // Uniform on mean (1 - s), mean (1 + s): <d^2> = mean^2 (1 + s^2 / 3), <d^3> = mean^3 (1 + s^2).
-  return std::pow(sizes.mean, power) * (1 + (power == 2 ? s2 / 3 : s2));
-}
-
 double largest_diameter(const Scene& scene) {
+  if (drawn(scene.initial.kind)) return largest_diameter(scene.grains.diameter);
   double largest = 0;
-  if (!drawn(scene.initial.kind)) {
-    for (const ListedGrain& grain : scene.grains.listed) largest = std::max(largest, grain.diameter);
-    return largest;
-  }
-  const SizeDistribution& sizes = scene.grains.diameter;
-  for (const double diameter : sizes.diameters) largest = std::max(largest, diameter);
-  if (sizes.kind == SizeKind::discrete) return largest;
-  return sizes.mean * (sizes.kind == SizeKind::uniform ? 1 + sizes.spread : 1);
+  for (const ListedGrain& grain : scene.grains.listed) largest = std::max(largest, grain.diameter);
+  return largest;
 }
 
 bool sound(const SizeDistribution& sizes) {
@@ -59,7 +45,8 @@ void check_count(Report& report) {
   const int count = scene.grains.count;
   const auto listed = scene.grains.listed.size();
   if (drawn(scene.initial.kind) && listed == 0)
-    report.rule(count > 0, "grains.count", "grains.count is needed: the number of grains", {"initial.kind", "grain"});
+    report.rule(count > 0 || any_shape(scene), "grains.count", "grains.count is needed: the number of grains",
+                {"initial.kind", "grain", "body"});
   if (scene.initial.kind == InitialKind::packing || scene.initial.kind == InitialKind::checkpoint)
     report.rule(count == 0, "grains.count",
                 fmt::format("grains.count follows from the {}: leave it out",
@@ -77,6 +64,8 @@ void check_diameters(Report& report) {
   const Paths kind = {"grains.diameter.distribution", "grains.diameter"};
   const std::string path = "grains.diameter.";
   const bool discrete = sizes.kind == SizeKind::discrete;
+  report.rule(!sizes.by_volume || sizes.kind != SizeKind::monodisperse, path + "by",
+              "grains.diameter.by needs distribution = \"uniform\" or \"discrete\"", kind);
   report.rule(sizes.spread == 0 || sizes.kind == SizeKind::uniform, path + "spread",
               "grains.diameter.spread needs distribution = \"uniform\"", kind);
   if (!discrete) {
@@ -108,7 +97,8 @@ void check_listed(Report& report) {
   const bool wanted = scene.initial.kind == InitialKind::listed;
   report.rule(!wanted || !listed.empty(), "initial.kind", "initial.kind = \"listed\" needs [[grain]] entries",
               {"grain"});
-  report.rule(wanted || listed.empty(), "initial.kind",
+  const bool beside = scene.initial.kind == InitialKind::gas || scene.initial.kind == InitialKind::dense;
+  report.rule(wanted || listed.empty() || (beside && std::all_of(listed.begin(), listed.end(), glued)), "initial.kind",
               "[[grain]] entries need initial.kind = \"listed\": other kinds make their own grains", {"grain"});
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::string path = fmt::format("grain[{}].", k);
@@ -153,15 +143,18 @@ void check_grains(Report& report) {
 double placeable_fraction(const Scene& scene) {
   const int dim = scene.dimension;
   if (gaseous(scene.initial.kind)) return dim == 2 ? 0.5 : 0.33;
+  if (scene.initial.kind == InitialKind::dense) return dim == 2 ? 0.83 : 0.62;
   const double equal_grains = dim == 2 ? 0.78 : 0.52;
-  return equal_grains * mean_power(scene.grains.diameter, dim) / std::pow(largest_diameter(scene), dim);
+  return equal_grains * mean_power(scene.grains.diameter, dim, dim) / std::pow(largest_diameter(scene), dim);
 }
 
 void check_solid_fraction(Report& report) {
   const Scene& scene = report.scene;
   if (!drawn(scene.initial.kind) || !sound(scene.grains.diameter)) return;
   const double most = placeable_fraction(scene);
-  const std::string_view how = gaseous(scene.initial.kind) ? "random insertion of grains" : "a lattice of these grains";
+  const std::string_view how = gaseous(scene.initial.kind)                ? "random insertion of grains"
+                               : scene.initial.kind == InitialKind::dense ? "a dense packing"
+                                                                          : "a lattice of these grains";
   const Paths reads = {"dimension", "initial.kind", "grains.diameter", "grains.count"};
   const auto& size = scene.cell.size;
   if (size.empty()) {
@@ -172,7 +165,8 @@ void check_solid_fraction(Report& report) {
   } else if (size.size() == static_cast<std::size_t>(scene.dimension)) {
     const double one = scene.dimension == 2 ? grain_volume<2>(1) : grain_volume<3>(1);
     const double volume = std::accumulate(size.begin(), size.end(), 1.0, std::multiplies<>());
-    const double fraction = scene.grains.count * one * mean_power(scene.grains.diameter, scene.dimension) / volume;
+    const double fraction =
+        scene.grains.count * one * mean_power(scene.grains.diameter, scene.dimension, scene.dimension) / volume;
     report.rule(fraction <= most, "cell.size",
                 fmt::format("cell.size: {} grains make a solid fraction of {:.4g}; {} in {}D reaches {:.4g}",
                             scene.grains.count, fraction, how, scene.dimension, most),
@@ -243,29 +237,6 @@ void check_cell(Report& report) {
                 {"cell.periodic", "grains.diameter", "grain", "initial.kind"});
 }
 
-void check_planes(Report& report) {
-  const Scene& scene = report.scene;
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const PlaneSpec& plane = scene.planes[k];
-    const std::string path = fmt::format("plane[{}].", k);
-    report.components(path + "point", plane.point.size(), false);
-    report.components(path + "normal", plane.normal.size(), false);
-    report.components(path + "velocity", plane.velocity.size());
-    report.rule(!plane.mass || scene.engine == EngineKind::cd, path + "mass",
-                path + "mass needs engine = \"cd\": planes of md have imposed velocities", {"engine"});
-    report.rule(plane.mass || plane.force == 0, path + "force",
-                path + "force needs " + path + "mass: a plane without mass has an imposed velocity", {path + "mass"});
-    if (plane.normal.size() != static_cast<std::size_t>(scene.dimension)) continue;
-    const bool zero = std::all_of(plane.normal.begin(), plane.normal.end(), [](double n) { return n == 0; });
-    report.rule(!zero, path + "normal", path + "normal is zero: it must point to the grains' side");
-    for (std::size_t a = 0; a < plane.normal.size(); ++a)
-      report.rule(plane.normal[a] == 0 || !is_periodic(scene, a), path + "normal",
-                  fmt::format("{}normal: the plane crosses the periodic direction {}; set cell.periodic to false there",
-                              path, axis(a)),
-                  {"cell.periodic", "dimension"});
-  }
-}
-
 // ---- compare -----------------------------------------------------------------------------------------------
 
 void check_repeated(Report& report, const std::string& path, std::vector<double> values) {
@@ -300,7 +271,7 @@ std::vector<Finding> check(const Scene& scene) {
   check_relaxers(report);
   check_initial(report);
   check_cell(report);
-  check_planes(report);
+  check_boundaries(report);
   check_bodies(report);
   check_loadings(report);
   check_output(report);

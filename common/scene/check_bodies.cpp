@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/core/near_match.hpp"
+#include "common/scene/body_shapes.hpp"
 #include "common/scene/check_report.hpp"
 #include "common/scene/rigid_bodies.hpp"
 
@@ -59,11 +60,11 @@ bool positive_definite(const std::vector<double>& v) {
 }
 
 void check_mass(Report& report, const std::string& path, const BodySpec& body) {
-  const bool moved = any(body.free), turned = any(body.free_rotation);
+  const bool moved = any(body.free) || !body.guide.empty() || body.segments > 0, turned = any(body.free_rotation);
   report.rule(!body.mass || moved || turned, path + "mass",
               path + "mass has no effect on a body that is free in nothing", {path + "free", path + "free_rotation"});
   report.components(path + "centre", body.centre.size());
-  report.rule(body.centre.empty() || turns(body), path + "centre",
+  report.rule(body.centre.empty() || turns(body) || body.shape == BodyShape::ring, path + "centre",
               path + "centre has no effect on a body that never turns", {path + "spin", path + "free_rotation"});
   if (body.inertia.empty()) return;
   report.rule(turned, path + "inertia", path + "inertia has no effect on a body that does not turn freely",
@@ -79,6 +80,104 @@ void check_mass(Report& report, const std::string& path, const BodySpec& body) {
                 path + "inertia: every moment of inertia must be above 0");
 }
 
+/// A field that belongs to other shapes than the body's.
+void check_idle(Report& report, const std::string& path, bool given, bool has_effect, const char* shapes,
+                const std::string& body) {
+  report.rule(!given || has_effect, path, fmt::format("{} needs shape = {}", path, shapes), {body + "shape"});
+}
+
+void check_wall(Report& report, const std::string& path, const BodySpec& body) {
+  const Scene& scene = report.scene;
+  const auto across = static_cast<std::size_t>(body.across), dim = static_cast<std::size_t>(scene.dimension);
+  const Paths reads = {path + "shape", path + "across", "cell.periodic", "cell.size", "dimension"};
+  report.rule(body.at.has_value(), path + "at", path + "at is needed with shape = \"wall\": where it stands", reads);
+  if (across >= dim) return report.add(path + "across", path + "across = \"z\" needs dimension = 3", {"dimension"});
+  report.rule(!is_periodic(scene, across), path + "across",
+              fmt::format("{}across: {} is a periodic direction, in which grains would pass the wall from behind; set "
+                          "cell.periodic to false there",
+                          path, axis(across)),
+              reads);
+  if (scene.cell.size.size() != dim || !body.at) return;
+  report.rule(*body.at >= 0 && *body.at <= scene.cell.size[across], path + "at",
+              fmt::format("{}at: {:.6g} is outside the cell, whose size is {:.6g} along {}", path, *body.at,
+                          scene.cell.size[across], axis(across)),
+              reads);
+}
+
+void check_ring(Report& report, const std::string& path, const BodySpec& body) {
+  const Paths reads = {path + "shape", "cell.periodic", "dimension"};
+  report.rule(body.radius.has_value(), path + "radius", path + "radius is needed with shape = \"ring\"", reads);
+  report.rule(!body.centre.empty(), path + "centre", path + "centre is needed with shape = \"ring\"", reads);
+  for (std::size_t a = 0; a < 2; ++a)
+    report.rule(!is_periodic(report.scene, a), path + "shape",
+                fmt::format("{}shape: the ring crosses the periodic direction {}; set cell.periodic to false there",
+                            path, axis(a)),
+                reads);
+}
+
+void check_clump(Report& report, const std::string& path, const BodySpec& body) {
+  const int least = body.shape == BodyShape::chain ? 1 : 3;
+  report.rule(body.size >= least, path + "size",
+              fmt::format("{}size is needed: the number of grains, at least {}", path, least), {path + "shape"});
+  report.rule(body.centre.empty(), path + "centre", path + "centre: a clump turns about the centre of its grains",
+              {path + "shape"});
+}
+
+/// Motion along a line.
+void check_guide(Report& report, const std::string& path, const BodySpec& body) {
+  if (body.guide.empty()) return;
+  report.components(path + "guide", body.guide.size());
+  report.rule(std::any_of(body.guide.begin(), body.guide.end(), [](double x) { return x != 0; }), path + "guide",
+              path + "guide is zero: it must point along the line on which the body moves");
+  report.rule(!any(body.free), path + "guide", fmt::format("{0}guide and {0}free exclude each other", path),
+              {path + "free"});
+}
+
+/// What the segments of a ring have by themselves.
+void check_segments(Report& report, const std::string& path, const BodySpec& body) {
+  report.rule(!body.pressure || body.segments > 0, path + "pressure",
+              fmt::format("{0}pressure needs {0}segments: a whole ring does not yield", path), {path + "segments"});
+  if (body.segments == 0) return;
+  report.rule(body.segments >= 3, path + "segments", path + "segments: at least 3 make a ring");
+  const auto refuse = [&](bool given, const char* field) {
+    report.rule(!given, path + field,
+                fmt::format("{0}{1} and {0}segments exclude each other: segments move along their radius", path, field),
+                {path + "segments"});
+  };
+  refuse(any(body.free), "free"), refuse(!body.force.empty(), "force"), refuse(!body.velocity.empty(), "velocity");
+  refuse(!body.guide.empty(), "guide"), refuse(turns(body), "spin");
+}
+
+void check_shape(Report& report, const std::string& path, const BodySpec& body) {
+  const Scene& scene = report.scene;
+  const bool wall = body.shape == BodyShape::wall, ring = body.shape == BodyShape::ring;
+  check_idle(report, path + "at", body.at.has_value(), wall, "\"wall\"", path);
+  check_idle(report, path + "across", body.across != Axis::y, wall, "\"wall\"", path);
+  check_idle(report, path + "radius", body.radius.has_value(), ring, "\"ring\"", path);
+  check_idle(report, path + "grains", body.outside, ring, "\"ring\"", path);
+  check_idle(report, path + "segments", body.segments > 0, ring, "\"ring\"", path);
+  check_idle(report, path + "size", body.size > 0, is_clump(body), "\"chain\" or \"polygon\"", path);
+  check_idle(report, path + "copies", body.copies > 1, is_clump(body), "\"chain\" or \"polygon\"", path);
+  const bool made = body.shape != BodyShape::listed;
+  check_idle(report, path + "spacing", body.spacing != 1, made, "\"wall\", \"ring\", \"chain\" or \"polygon\"", path);
+  check_idle(report, path + "material", !body.material.empty(), made, "\"wall\", \"ring\", \"chain\" or \"polygon\"",
+             path);
+  check_idle(report, path + "pressure", body.pressure.has_value(), ring, "\"ring\"", path);
+  if (wall) check_wall(report, path, body);
+  if (ring) check_ring(report, path, body), check_segments(report, path, body);
+  check_guide(report, path, body);
+  const InitialKind kind = scene.initial.kind;
+  const bool placed = kind == InitialKind::gas || kind == InitialKind::dense;
+  report.rule(!(wall || ring) || placed || kind == InitialKind::listed, path + "shape",
+              path + "shape needs initial.kind = \"gas\", \"dense\" or \"listed\"", {"initial.kind"});
+  report.rule(!is_clump(body) || placed, path + "shape",
+              path + "shape: clumps are placed at random: they need initial.kind = \"gas\" or \"dense\"",
+              {"initial.kind"});
+  report.rule(!made || !scene.cell.size.empty(), path + "shape",
+              path + "shape needs cell.size: that is where the grains of shapes are placed", {"cell.size"});
+  if (is_clump(body)) check_clump(report, path, body);
+}
+
 void check_body(Report& report, std::size_t k) {
   const BodySpec& body = report.scene.bodies[k];
   const std::string path = fmt::format("body[{}].", k);
@@ -88,14 +187,19 @@ void check_body(Report& report, std::size_t k) {
   check_rotation(report, path + "spin", body.spin.size());
   check_rotation(report, path + "free_rotation", body.free_rotation.size());
   check_rotation(report, path + "torque", body.torque.size());
-  check_load(report, path + "force", path + "free", body.force, body.free, "is not free");
+  if (body.guide.empty()) check_load(report, path + "force", path + "free", body.force, body.free, "is not free");
   check_load(report, path + "torque", path + "free_rotation", body.torque, body.free_rotation, "does not turn freely");
   check_axes(report, path, body);
   check_mass(report, path, body);
+  check_shape(report, path, body);
   const auto& listed = report.scene.grains.listed;
   const bool used =
       std::any_of(listed.begin(), listed.end(), [&](const ListedGrain& grain) { return grain.body == body.name; });
-  report.rule(used, path + "name",
+  report.rule(
+      body.shape == BodyShape::listed || !used, path + "name",
+      fmt::format("{}name: the shape makes the grains of {}: no [[grain]] can be glued to it", path, quoted(body.name)),
+      {"grain", path + "shape"});
+  report.rule(used || body.shape != BodyShape::listed, path + "name",
               fmt::format("{}name: no [[grain]] is glued to {}: give its grains body = {}", path, quoted(body.name),
                           quoted(body.name)),
               {"grain"});

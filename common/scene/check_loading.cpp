@@ -113,17 +113,31 @@ void check_pressure(Report& report, const Part& part) {
               {kind, pressure, part.in_loading("fixed_volume"), "loading.pressure"});
 }
 
+/// Inclined gravity pulls along x, also where x is periodic: something must hold the grains back.
+void check_inclination(Report& report, const Part& part) {
+  const Scene& scene = report.scene;
+  const std::string path = part.in_loading("inclination");
+  if (!part.loading.inclination) return;
+  const bool pulled = !part.loading.gravity.empty() || !scene.loading.gravity.empty();
+  report.rule(pulled, path, fmt::format("{} needs {}: what it turns", path, part.in_loading("gravity")),
+              {part.in_loading("gravity"), "loading.gravity"});
+  report.rule(!scene.planes.empty() || !scene.cylinders.empty() || !scene.bodies.empty(), path,
+              path + " needs a floor, a [[plane]] or a [[body]] that is not free: grains would fall forever",
+              {"plane", "body", "cylinder"});
+}
+
 void check_gravity(Report& report, const Part& part) {
   const Scene& scene = report.scene;
+  check_inclination(report, part);
   const auto& gravity = part.loading.gravity;
   const std::string path = part.in_loading("gravity");
   report.components(path, gravity.size());
   if (gravity.size() != static_cast<std::size_t>(scene.dimension)) return;
   for (std::size_t a = 0; a < gravity.size(); ++a)
     report.rule(gravity[a] == 0 || !is_periodic(scene, a), path,
-                fmt::format("{}: {} is a periodic direction, in which grains would fall forever; set "
-                            "cell.periodic to false there",
-                            path, axis(a)),
+                fmt::format("{}: {} is a periodic direction, in which grains would fall forever; set cell.periodic to "
+                            "false there{}",
+                            path, axis(a), a == 0 ? ", or turn gravity by " + part.in_loading("inclination") : ""),
                 {"cell.periodic", "dimension"});
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/core/near_match.hpp"
 #include "common/scene/check_report.hpp"
+#include "common/scene/derive.hpp"
 
 namespace galet::scene_check {
 
@@ -265,6 +266,12 @@ void check_material_names(Report& report) {
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
     if (!scene.planes[k].material.empty())
       check_reference(report, fmt::format("plane[{}].material", k), scene.planes[k].material);
+  for (std::size_t k = 0; k < scene.cylinders.size(); ++k)
+    if (!scene.cylinders[k].material.empty())
+      check_reference(report, fmt::format("cylinder[{}].material", k), scene.cylinders[k].material);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    if (!scene.bodies[k].material.empty())
+      check_reference(report, fmt::format("body[{}].material", k), scene.bodies[k].material);
   for (std::size_t k = 0; k < scene.grains.listed.size(); ++k)
     if (!scene.grains.listed[k].material.empty())
       check_reference(report, fmt::format("grain[{}].material", k), scene.grains.listed[k].material);
@@ -281,6 +288,8 @@ void check_relaxers(Report& report) {
   const bool flows = imposes_flow(scene);
   const bool walls = std::any_of(scene.planes.begin(), scene.planes.end(),
                                  [&](const PlaneSpec& plane) { return nonzero(plane.velocity); });
+  const bool turning = std::any_of(scene.cylinders.begin(), scene.cylinders.end(),
+                                   [](const CylinderSpec& cylinder) { return surface_speed(cylinder) > 0; });
   const auto refuse = [&](bool on, const char* path) {
     if (!on) return;
     const std::string why = ": it breaks the balance of momentum and may only help to reach an equilibrium";
@@ -289,6 +298,7 @@ void check_relaxers(Report& report) {
     report.rule(!flows, path, fmt::format("{} is refused with an imposed flow{}", path, why),
                 {"loading.kind", "drive", "stage"});
     report.rule(!walls, path, fmt::format("{} is refused with moving planes{}", path, why), {"plane"});
+    report.rule(!turning, path, fmt::format("{} is refused with moving cylinders{}", path, why), {"cylinder"});
   };
   refuse(scene.md.drag > 0, "md.drag");
   refuse(scene.md.acceleration_damping > 0, "md.acceleration_damping");

@@ -47,6 +47,17 @@ void check_output(Report& report) {
               {"material.stiffness_level", "material.normal_stiffness", "material.young_modulus"});
   report.rule(scene.dimension == 3 || output.profile_direction != Axis::z, "output.profile_direction",
               "output.profile_direction: \"z\" needs dimension = 3", {"dimension"});
+  const Paths rings = {"output.profile_centre", "output.profile_radii"};
+  report.components("output.profile_centre", output.profile_centre.size());
+  report.rule(output.profile_centre.empty() == output.profile_radii.empty(), "output.profile_centre",
+              "output.profile_centre and output.profile_radii need each other", rings);
+  const bool two = output.profile_radii.size() == 2 && output.profile_radii[0] < output.profile_radii[1];
+  report.rule(output.profile_radii.empty() || two, "output.profile_radii",
+              "output.profile_radii: expected two radii, the smaller one first", rings);
+  report.rule(output.profile_centre.empty() || (!is_periodic(scene, 0) && !is_periodic(scene, 1)),
+              "output.profile_centre",
+              "output.profile_centre needs a cell that is periodic in neither x nor y: rings have no images",
+              {"cell.periodic"});
   report.rule(output.frames > 0 || output.formats.empty(), "output.formats", "output.formats needs output.frames",
               {"output.frames"});
 }

@@ -55,6 +55,9 @@ void check_relaxers(Report& report);
 void check_loadings(Report& report);    ///< of the scene and of its stages, with their ends
 bool imposes_flow(const Scene& scene);  ///< whether some loading imposes a rate
 
+// check_boundaries.cpp
+void check_boundaries(Report& report);  ///< planes and cylinders
+
 // check_bodies.cpp
 void check_bodies(Report& report);
 

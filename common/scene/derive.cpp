@@ -90,6 +90,8 @@ NamedTime shortest_time(const Scene& scene, const Derived& derived) {
     if (plane.mass && plane.force != 0)
       consider(std::sqrt(d * *plane.mass / std::abs(plane.force)), "sqrt(d mass / force) of a plane");
   }
+  for (const CylinderSpec& cylinder : scene.cylinders)
+    if (surface_speed(cylinder) > 0) consider(d / surface_speed(cylinder), "d / speed of a cylinder's surface");
   for (const CellDrive& drive : scene.loading.drives)
     if (drive.rate && *drive.rate != 0) consider(1 / std::abs(*drive.rate), "1/rate of a drive");
   for (const PairLaw& law : derived.laws.pairs)
@@ -110,7 +112,7 @@ void add_body_facts(const Scene& scene, const Sample<D>& sample, GrainFacts& fac
   const RigidBodies<D> bodies = rigid_bodies<D>(scene, sample);
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     const RigidBody<D>& body = bodies.body[b];
-    const Vec<D> push = body.mobility.cwiseProduct(body.force);
+    const Vec<D> push = body.mobility * body.force;
     const Spin<D> turn = turning_mobility(body) * body.torque;
     Spin<D> share = zero_spin<D>();
     for (int k = bodies.first[b]; k < bodies.first[b + 1]; ++k) {
@@ -134,6 +136,12 @@ void add_body_facts(const Scene& scene, const Sample<D>& sample, GrainFacts& fac
 }
 
 }  // namespace
+
+double surface_speed(const CylinderSpec& cylinder) {
+  double square = 0;
+  for (const double component : cylinder.velocity) square += component * component;
+  return std::sqrt(square) + std::abs(cylinder.spin) * cylinder.radius;
+}
 
 template <int D>
 GrainFacts grain_facts(const Scene& scene, const Sample<D>& sample) {
@@ -298,6 +306,10 @@ std::vector<DerivedLine> explain(const Scene& scene, const Derived& derived) {
   add("I", derived.inertial_number, derived.shear_rate ? "shear rate * tau_i" : "compression rate * tau_i");
   if (scene.material.normal_law == NormalLaw::hertz)
     add("K_N typical", derived.contact_stiffness, "dF_N/dh where pressure, weight, cohesion or impacts press contacts");
+  const PairLaw& base = derived.laws.at(0, 0);
+  if (scene.initial.speed > 0 && base.cohesion_range > 0 && base.cohesion > 0)
+    add("V/V*", scene.initial.speed / std::sqrt(base.cohesion_range * base.cohesion / grains.mean_mass),
+        "initial.speed / sqrt(D0 F0 / m): fast against what cohesion can hold, above 1");
   add("tau_c", derived.collision_time, "duration of a head-on collision of two mean grains");
   add("duration", derived.duration, "simulated time");
   add("md dt", derived.md_dt,

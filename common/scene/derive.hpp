@@ -14,6 +14,9 @@
 
 namespace galet {
 
+/// Largest speed of a cylinder's surface.
+double surface_speed(const CylinderSpec& cylinder);
+
 /// The facts about the grains that a derivation needs.
 struct GrainFacts {
   int count = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace galet {
 
@@ -46,6 +47,15 @@ double largest_stress(const LoadingSpec& loading) {
     consider(stress);
   for (const CellDrive& drive : loading.drives) consider(drive.stress), consider(drive.stress_to);
   return largest;
+}
+
+std::vector<double> gravity_of(const LoadingSpec& loading) {
+  std::vector<double> gravity = loading.gravity;
+  if (gravity.empty() || !loading.inclination) return gravity;
+  const double angle = *loading.inclination * std::numbers::pi / 180, x = gravity.front(), up = gravity.back();
+  gravity.front() = x * std::cos(angle) - up * std::sin(angle);
+  gravity.back() = x * std::sin(angle) + up * std::cos(angle);
+  return gravity;
 }
 
 std::vector<CellDrive> loading_drives(const Scene& scene, const Derived& derived) {

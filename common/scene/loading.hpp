@@ -36,6 +36,10 @@ bool holds_present_stress(const LoadingSpec& loading);
 /// The largest stress that the loading asks for (absolute value); 0 for none.
 double largest_stress(const LoadingSpec& loading);
 
+/// Gravity as it acts: turned by the inclination, (g_x cos - g_last sin, ..., g_x sin + g_last cos), so that with
+/// g = (0, -1) it is (sin, -cos): down a slope towards +x. Empty: none.
+std::vector<double> gravity_of(const LoadingSpec& loading);
+
 /// `derived`: of that scene; its rates.
 std::vector<CellDrive> loading_drives(const Scene& scene, const Derived& derived);
 

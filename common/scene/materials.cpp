@@ -52,6 +52,8 @@ template <int D>
 void assign_materials(const Scene& scene, Sample<D>& sample) {
   sample.plane_material.clear();
   for (const PlaneSpec& plane : scene.planes) sample.plane_material.push_back(material_index(scene, plane.material));
+  for (const CylinderSpec& cylinder : scene.cylinders)
+    sample.plane_material.push_back(material_index(scene, cylinder.material));
   if (scene.initial.kind == InitialKind::packing || scene.initial.kind == InitialKind::checkpoint) {
     // Atom types of a file say nothing to a scene of one material.
     if (scene.other_materials.empty()) std::fill(sample.material.begin(), sample.material.end(), 0);

@@ -35,6 +35,8 @@ Severity severity(const Scene& scene, const Derived& derived, const PairLaw& law
   found.force += law.cohesion;
   double moving = 2 * grains.largest_speed;
   for (const PlaneSpec& plane : scene.planes) moving = std::max(moving, grains.largest_speed + norm(plane.velocity));
+  for (const CylinderSpec& cylinder : scene.cylinders)
+    moving = std::max(moving, grains.largest_speed + surface_speed(cylinder));
   found.speed = moving;
   if (peaks && derived.inertial_time && scene.loading.kind != LoadingKind::none)
     found.speed = std::max(found.speed, 3 * d / *derived.inertial_time);

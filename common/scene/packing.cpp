@@ -12,10 +12,13 @@
 #include "common/io/checkpoint_sample.hpp"
 #include "common/io/lammps.hpp"
 #include "common/io/packing_csv.hpp"
+#include "common/scene/body_shapes.hpp"
+#include "common/scene/dense_packing.hpp"
 #include "common/scene/materials.hpp"
 #include "common/scene/placement.hpp"
 #include "common/scene/random_insertion.hpp"
 #include "common/scene/rigid_bodies.hpp"
+#include "common/scene/size_distribution.hpp"
 #include "common/scene/spatial_order.hpp"
 
 namespace galet {
@@ -68,6 +71,24 @@ Cell<D> initial_cell(const Scene& scene, double solid_volume) {
 }
 
 template <int D>
+Plane<D> scene_cylinder(const CylinderSpec& spec, std::size_t k) {
+  const std::string path = fmt::format("cylinder {}", k + 1);
+  Plane<D> surface;
+  surface.point = vector_of<D>(spec.point, path + ", point");
+  if (!(spec.radius > 0)) throw InputError(path + ", radius: must be above 0");
+  surface.radius = spec.radius, surface.inside = !spec.outside;
+  if (!spec.velocity.empty()) surface.velocity = vector_of<D>(spec.velocity, path + ", velocity");
+  if constexpr (D == 2) {
+    surface.spin = spec.spin;
+  } else {
+    surface.axis = Vec<D>::Unit(static_cast<int>(spec.axis));
+    surface.spin = spec.spin * surface.axis;
+  }
+  return surface;
+}
+
+/// Planes, and cylinders after them.
+template <int D>
 std::vector<Plane<D>> scene_planes(const Scene& scene) {
   std::vector<Plane<D>> planes;
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
@@ -82,6 +103,7 @@ std::vector<Plane<D>> scene_planes(const Scene& scene) {
     if (spec.mass) plane.inverse_mass = 1 / *spec.mass, plane.force = spec.force;
     planes.push_back(plane);
   }
+  for (std::size_t k = 0; k < scene.cylinders.size(); ++k) planes.push_back(scene_cylinder<D>(scene.cylinders[k], k));
   return planes;
 }
 
@@ -101,11 +123,13 @@ void set_random_velocities(const Scene& scene, Sample<D>& sample) {
   Vec<D> momentum = Vec<D>::Zero();
   double mass = 0;
   for (int i = 0; i < sample.count(); ++i) {
+    if (!sample.body.empty() && sample.body[i] >= 0) continue;
     RandomStream random(scene.seed, stream_number(StreamPurpose::velocity, i));
     for (int a = 0; a < D; ++a) sample.velocity[i][a] = scene.initial.speed * random.normal();
     momentum += sample.mass[i] * sample.velocity[i];
     mass += sample.mass[i];
   }
+  if (mass == 0) return;  // clumps only
   for (Vec<D>& velocity : sample.velocity) velocity -= momentum / mass;
 }
 
@@ -183,7 +207,8 @@ void place_on_lattice(const Scene& scene, Sample<D>& sample) {
 /// Refuses grains that overlap by more than the given share of R_i + R_j (those of one body may), or that cross a plane
 /// as far.
 template <int D>
-void refuse_overlaps(const Sample<D>& sample, double share) {
+void refuse_overlaps(const Scene& scene, const Sample<D>& sample, double share) {
+  const std::vector<int> group = contact_groups(scene, sample.body);
   const double largest = *std::max_element(sample.radius.begin(), sample.radius.end());
   const Vec<D> width = face_distances<D>(sample.cell.box);
   for (int a = 0; a < D; ++a)
@@ -193,13 +218,16 @@ void refuse_overlaps(const Sample<D>& sample, double share) {
                       width[a], a + 1, 2 * largest));
   PlacementGrid<D> grid(sample.cell, 2 * largest, sample.count());
   for (int i = 0; i < sample.count(); ++i) {
-    const auto glued = [&](int j) {
-      return !sample.body.empty() && sample.body[i] >= 0 && sample.body[j] == sample.body[i];
-    };
+    const auto glued = [&](int j) { return !group.empty() && group[i] >= 0 && group[j] == group[i]; };
     const int other = grid.touched(sample.position[i], sample.radius[i], 1 - share, glued);
     if (other >= 0) throw InputError(fmt::format("grains {} and {} overlap", other + 1, i + 1));
     const int plane = crossed_plane<D>(sample.planes, sample.position[i], sample.radius[i] * (1 - share));
-    if (plane >= 0) throw InputError(fmt::format("grain {} crosses plane {}", i + 1, plane + 1));
+    if (plane >= 0) {
+      const auto flat = static_cast<int>(
+          std::count_if(sample.planes.begin(), sample.planes.end(), [](const Plane<D>& p) { return !p.curved(); }));
+      throw InputError(plane < flat ? fmt::format("grain {} crosses plane {}", i + 1, plane + 1)
+                                    : fmt::format("grain {} crosses cylinder {}", i + 1, plane - flat + 1));
+    }
     grid.add(sample.position[i], sample.radius[i]);
   }
 }
@@ -210,10 +238,20 @@ void wrap_positions(Sample<D>& sample) {
   for (Vec<D>& x : sample.position) x = wrapped_position<D>(sample.cell, inverse, x);
 }
 
-/// A gas, whose grains are numbered along a curve through the cell.
+/// A gas or a dense packing, whose grains are numbered along a curve through the cell.
 template <int D>
-void place_at_random(const Scene& scene, Sample<D>& sample) {
-  const std::vector<Vec<D>> position = random_insertion<D>(sample.cell, sample.planes, sample.radius, scene.seed);
+void place_at_random(const Scene& scene, Sample<D>& sample, GluedGrains<D>& glued) {
+  std::vector<Plane<D>> bounds = sample.planes;
+  for (const Plane<D>& bound : shape_bounds<D>(scene, sample.cell)) bounds.push_back(bound);
+  // Clumps take the room of their enclosing spheres.
+  const std::vector<UnplacedClump> clumps = unplaced_clumps(scene);
+  std::vector<double> radii = sample.radius;
+  for (const UnplacedClump& clump : clumps) radii.push_back(clump.radius);
+  const auto place = scene.initial.kind == InitialKind::dense ? dense_packing<D> : random_insertion<D>;
+  std::vector<Vec<D>> position = place(sample.cell, bounds, radii, scene.seed, glued);
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    add_clump<D>(scene, clumps[k], position[sample.position.size() + k], glued);
+  position.resize(sample.position.size());
   const std::vector<int> order = spatial_order<D>(sample.cell, position);
   const std::vector<double> radius = sample.radius;
   for (int k = 0; k < sample.count(); ++k) {
@@ -222,22 +260,67 @@ void place_at_random(const Scene& scene, Sample<D>& sample) {
   }
 }
 
-/// A lattice or a gas.
+/// Index of the body of that name; -1 for no name.
+int body_index(const Scene& scene, const std::string& name) {
+  if (name.empty()) return -1;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    if (scene.bodies[k].name == name) return static_cast<int>(k);
+  throw InputError("there is no body called '" + name + "'");
+}
+
+/// The grains of bodies beside drawn ones: those that are listed, and those of shapes.
+template <int D>
+GluedGrains<D> glued_grains(const Scene& scene, const Cell<D>& cell) {
+  GluedGrains<D> glued;
+  for (std::size_t k = 0; k < scene.grains.listed.size(); ++k) {
+    const ListedGrain& grain = scene.grains.listed[k];
+    const int body = body_index(scene, grain.body);
+    if (body < 0)
+      throw InputError(fmt::format("grain {}: beside drawn grains, listed ones must be glued to a body", k + 1));
+    glued.add(vector_of<D>(grain.position, fmt::format("grain {}, position", k + 1)), grain.diameter / 2, body,
+              material_index(scene, grain.material));
+  }
+  add_shapes<D>(scene, cell, glued);
+  return glued;
+}
+
+/// Adds them to a sample whose other grains are complete but for their masses.
+template <int D>
+void append_glued(const GluedGrains<D>& glued, Sample<D>& sample) {
+  if (sample.body.empty()) sample.body.assign(sample.position.size(), -1);
+  sample.position.insert(sample.position.end(), glued.position.begin(), glued.position.end());
+  sample.radius.insert(sample.radius.end(), glued.radius.begin(), glued.radius.end());
+  sample.material.insert(sample.material.end(), glued.material.begin(), glued.material.end());
+  sample.body.insert(sample.body.end(), glued.body.begin(), glued.body.end());
+  sample.velocity.resize(sample.position.size(), Vec<D>::Zero());
+  sample.spin.resize(sample.position.size(), zero_spin<D>());
+  sample.mass.resize(sample.position.size(), 1.0);
+}
+
+/// A lattice, a gas or a dense packing; grains of bodies come last.
 template <int D>
 Sample<D> drawn_sample(const Scene& scene) {
-  if (scene.grains.count < 1) throw InputError("grains.count must be at least 1");
+  if (scene.grains.count < 1 && !any_shape(scene)) throw InputError("grains.count must be at least 1");
   Sample<D> sample;
   sample.resize(scene.grains.count);
   const std::vector<double> diameters = draw_diameters(scene, scene.grains.count);
   for (int i = 0; i < sample.count(); ++i) sample.radius[i] = diameters[i] / 2;
   sample.cell = initial_cell<D>(scene, sample.solid_volume());
   sample.planes = scene_planes<D>(scene);
+  GluedGrains<D> glued = glued_grains<D>(scene, sample.cell);
   if (scene.initial.kind == InitialKind::lattice)
     place_on_lattice<D>(scene, sample);
   else
-    place_at_random<D>(scene, sample);
+    place_at_random<D>(scene, sample, glued);
   assign_materials<D>(scene, sample);
+  if (!scene.bodies.empty()) {
+    append_glued<D>(glued, sample);
+    wrap_positions<D>(sample);
+    refuse_overlaps<D>(scene, sample, listed_overlap);
+  }
   set_masses<D>(scene, sample);
+  if (scene.initial.speed > 0) set_random_velocities<D>(scene, sample);
+  move_with_bodies<D>(scene, sample);
   return sample;
 }
 
@@ -265,14 +348,6 @@ Cell<D> enclosing_cell(const Sample<D>& sample, const std::array<bool, D>& perio
   return cell;
 }
 
-/// Index of the body of that name; -1 for no name.
-int body_index(const Scene& scene, const std::string& name) {
-  if (name.empty()) return -1;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    if (scene.bodies[k].name == name) return static_cast<int>(k);
-  throw InputError("there is no body called '" + name + "'");
-}
-
 template <int D>
 Sample<D> listed_sample(const Scene& scene) {
   const std::vector<ListedGrain>& listed = scene.grains.listed;
@@ -294,9 +369,14 @@ Sample<D> listed_sample(const Scene& scene) {
   sample.planes = scene_planes<D>(scene);
   if (!scene.bodies.empty())
     for (const ListedGrain& grain : listed) sample.body.push_back(body_index(scene, grain.body));
-  wrap_positions<D>(sample);
-  refuse_overlaps<D>(sample, listed_overlap);
   assign_materials<D>(scene, sample);
+  if (any_shape(scene)) {
+    GluedGrains<D> glued;
+    add_shapes<D>(scene, sample.cell, glued);
+    append_glued<D>(glued, sample);
+  }
+  wrap_positions<D>(sample);
+  refuse_overlaps<D>(scene, sample, listed_overlap);
   set_masses<D>(scene, sample);
   move_with_bodies<D>(scene, sample);
   return sample;
@@ -322,7 +402,7 @@ Sample<D> packing_sample(const Scene& scene) {
   if (!scene.cell.periodic.empty()) sample.cell.periodic = periodicity<D>(scene);
   sample.planes = scene_planes<D>(scene);
   wrap_positions<D>(sample);
-  refuse_overlaps<D>(sample, packing_overlap);
+  refuse_overlaps<D>(scene, sample, packing_overlap);
   assign_materials<D>(scene, sample);
   if (!file.has_mass || scene.grains.density || scene.grains.mass) set_masses<D>(scene, sample);
   return sample;
@@ -339,18 +419,6 @@ Sample<D> continued_sample(const Scene& scene) {
   return sample;
 }
 
-double drawn_diameter(const SizeDistribution& sizes, RandomStream random) {
-  if (sizes.kind == SizeKind::monodisperse) return sizes.mean;
-  const double u = random.uniform();
-  if (sizes.kind == SizeKind::uniform) return sizes.mean * (1 + sizes.spread * (2 * u - 1));
-  double sum = 0;
-  for (std::size_t k = 0; k + 1 < sizes.diameters.size(); ++k) {
-    sum += sizes.fractions[k];
-    if (u < sum) return sizes.diameters[k];
-  }
-  return sizes.diameters.back();  // also when rounding leaves the sum a little under 1
-}
-
 }  // namespace
 
 std::vector<double> draw_diameters(const Scene& scene, int count) {
@@ -359,7 +427,8 @@ std::vector<double> draw_diameters(const Scene& scene, int count) {
     throw InputError("grains.diameter: a discrete distribution needs one fraction for each of its diameters");
   std::vector<double> diameters(count);
   for (int i = 0; i < count; ++i)
-    diameters[i] = drawn_diameter(sizes, RandomStream(scene.seed, stream_number(StreamPurpose::diameter, i)));
+    diameters[i] = diameter_at(sizes, scene.dimension,
+                               RandomStream(scene.seed, stream_number(StreamPurpose::diameter, i)).uniform());
   if (count > 0 && !(*std::min_element(diameters.begin(), diameters.end()) > 0))
     throw InputError("grains.diameter: every diameter must be above 0");
   return diameters;
@@ -370,8 +439,7 @@ double mean_diameter(const Scene& scene, const std::vector<double>& radius) {
   const InitialKind kind = scene.initial.kind;
   if (kind == InitialKind::listed || kind == InitialKind::packing || kind == InitialKind::checkpoint)
     return 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
-  if (sizes.kind != SizeKind::discrete) return sizes.mean;
-  return std::inner_product(sizes.diameters.begin(), sizes.diameters.end(), sizes.fractions.begin(), 0.0);
+  return mean_power(sizes, scene.dimension, 1);
 }
 
 template <int D>
@@ -382,8 +450,8 @@ Sample<D> initial_sample(const Scene& scene) {
     case InitialKind::lattice:
     case InitialKind::gas:
     case InitialKind::compressed_gas:
-      sample = drawn_sample<D>(scene);
-      break;
+    case InitialKind::dense:
+      return drawn_sample<D>(scene);
     case InitialKind::packing:
       sample = packing_sample<D>(scene);
       break;

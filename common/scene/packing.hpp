@@ -1,5 +1,5 @@
-// Initial states: lattice, dilute random gas, listed grains, packings read from files, and checkpoints of other runs.
-// (A compressed gas is a gas that the run loop compresses: see src/simulation.hpp.)
+// Initial states: lattice, dilute random gas, dense packing, listed grains, packings read from files, and checkpoints
+// of other runs. (A compressed gas is a gas that the run loop compresses: see src/simulation.hpp.)
 //
 // Cell: origin at 0, a position is box * s with s in [0, 1) along periodic directions. Its size is cell.size; without
 // it the volume of the grains drawn over initial.solid_fraction, edges in proportion to cell.aspect (listed grains:
@@ -19,7 +19,7 @@
 
 namespace galet {
 
-/// Diameters drawn from the scene's distribution, one stream per grain.
+/// Diameters drawn from the scene's distribution, one stream per grain (size_distribution.hpp).
 std::vector<double> draw_diameters(const Scene& scene, int count);
 
 /// d: the mean of the scene's distribution; of the grains themselves when they are listed or read from a file.

@@ -47,7 +47,8 @@ Room<D> room_for(const Cell<D>& cell, double radius) {
 
 template <int D>
 std::vector<Vec<D>> random_insertion(const Cell<D>& cell, const std::vector<Plane<D>>& planes,
-                                     const std::vector<double>& radius, std::uint64_t seed) {
+                                     const std::vector<double>& radius, std::uint64_t seed,
+                                     const Obstacles<D>& obstacles) {
   const int count = static_cast<int>(radius.size());
   std::vector<int> order(radius.size());
   std::iota(order.begin(), order.end(), 0);
@@ -57,7 +58,10 @@ std::vector<Vec<D>> random_insertion(const Cell<D>& cell, const std::vector<Plan
   // Far more than any density takes that can be reached at all; the attempts that early grains leave over serve the
   // late ones.
   long attempts_left = 1000L * count + 100000;
-  PlacementGrid<D> grid(cell, 2 * radius[order[0]], count);
+  double largest = radius[order[0]];
+  for (const double r : obstacles.radius) largest = std::max(largest, r);
+  PlacementGrid<D> grid(cell, 2 * largest, count);
+  for (std::size_t k = 0; k < obstacles.radius.size(); ++k) grid.add(obstacles.position[k], obstacles.radius[k]);
   std::vector<Vec<D>> position(radius.size());
   double placed_volume = 0;
   for (int i : order) {
@@ -67,7 +71,8 @@ std::vector<Vec<D>> random_insertion(const Cell<D>& cell, const std::vector<Plan
       if (attempts_left-- == 0) {
         double wanted = 0;
         for (double r : radius) wanted += grain_volume<D>(2 * r);
-        report_failure(D, grid.count(), radius.size(), placed_volume / cell.volume(), wanted / cell.volume());
+        report_failure(D, grid.count() - static_cast<int>(obstacles.radius.size()), radius.size(),
+                       placed_volume / cell.volume(), wanted / cell.volume());
       }
       Vec<D> s;
       for (int a = 0; a < D; ++a) s[a] = random.uniform(room.low[a], room.high[a]);
@@ -80,8 +85,8 @@ std::vector<Vec<D>> random_insertion(const Cell<D>& cell, const std::vector<Plan
 }
 
 template std::vector<Vec<2>> random_insertion<2>(const Cell<2>&, const std::vector<Plane<2>>&,
-                                                 const std::vector<double>&, std::uint64_t);
+                                                 const std::vector<double>&, std::uint64_t, const Obstacles<2>&);
 template std::vector<Vec<3>> random_insertion<3>(const Cell<3>&, const std::vector<Plane<3>>&,
-                                                 const std::vector<double>&, std::uint64_t);
+                                                 const std::vector<double>&, std::uint64_t, const Obstacles<3>&);
 
 }  // namespace galet

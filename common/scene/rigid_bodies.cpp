@@ -92,7 +92,11 @@ void set_motion(const BodySpec& spec, RigidBody<D>& body) {
   body.spin = spin_from<D>(spec.spin);
   body.torque = spin_from<D>(spec.torque);
   for (std::size_t a = 0; a < std::min<std::size_t>(D, spec.free.size()); ++a)
-    if (spec.free[a]) body.mobility[a] = 1 / body.mass;
+    if (spec.free[a]) body.mobility(a, a) = 1 / body.mass;
+  if (!spec.guide.empty()) {
+    const Vec<D> along = vector_from<D>(spec.guide).normalized();
+    body.mobility = along * along.transpose() / body.mass;
+  }
   const auto axes = std::count(spec.free_rotation.begin(), spec.free_rotation.end(), true);
   require(axes == 0 || axes == 1 || axes == static_cast<long>(spec.free_rotation.size()),
           "a body turns freely about no axis, one, or all");
@@ -127,7 +131,7 @@ void check_reach(const BodySpec& spec, const Sample<D>& sample, const std::vecto
 /// Mean over the directions of a blow of what it finds in place of 1 / mass.
 template <int D>
 double mean_inverse_mass(const RigidBody<D>& body, const Vec<D>& arm) {
-  double inverse = body.mobility.sum() / D;
+  double inverse = body.mobility.trace() / D;
   const SpinMap<D> turning = turning_mobility(body);
   if constexpr (D == 2) {
     inverse += turning * arm.squaredNorm() / 2;
@@ -180,6 +184,7 @@ RigidBodies<D> rigid_bodies(const Scene& scene, const Sample<D>& sample) {
   RigidBodies<D> bodies;
   if (sample.body.empty() || scene.bodies.empty()) return bodies;
   bodies.of = sample.body;
+  bodies.group = contact_groups(scene, sample.body);
   bodies.first = {0};
   bodies.offset.assign(sample.position.size(), Vec<D>::Zero());
   bodies.contact_mass.assign(sample.mass.begin(), sample.mass.end());
@@ -217,6 +222,13 @@ void move_with_bodies(const Scene& scene, Sample<D>& sample) {
       sample.spin[grain] = body.spin;
     }
   }
+}
+
+std::vector<int> contact_groups(const Scene& scene, const std::vector<int>& body_of) {
+  std::vector<int> group = body_of;
+  for (int& body : group)
+    if (body >= 0) body -= scene.bodies[body].segment;
+  return group;
 }
 
 bool any_turning(const Scene& scene) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), turns); }

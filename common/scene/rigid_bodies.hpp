@@ -13,7 +13,9 @@ namespace galet {
 template <int D>
 struct RigidBodies {
   std::vector<RigidBody<D>> body;
-  std::vector<int> of;             ///< index of each grain's body, or -1
+  std::vector<int> of;     ///< index of each grain's body, or -1
+  std::vector<int> group;  ///< of each grain: its body, the first one for all segments of a ring, or -1; grains of one
+                           ///< group do not act on each other
   std::vector<int> first, member;  ///< grains of body b, ascending: member[first[b]] .. member[first[b + 1]]
   std::vector<Vec<D>> offset;      ///< of each grain from its body's centre, in the body's frame; zero for free grains
   std::vector<double> contact_mass;  ///< of each grain: what a blow on it meets, see contact_masses()
@@ -34,6 +36,9 @@ struct RigidBodies {
 /// from it. Throws InputError when a body that turns reaches around a periodic cell, or has no grain.
 template <int D>
 RigidBodies<D> rigid_bodies(const Scene& scene, const Sample<D>& sample);
+
+/// RigidBodies::group of grains of those bodies.
+std::vector<int> contact_groups(const Scene& scene, const std::vector<int>& body_of);
 
 /// Gives the grains of bodies the velocities and spins of these.
 template <int D>

@@ -12,13 +12,14 @@ namespace galet {
 
 enum class SizeKind { monodisperse, uniform, discrete };
 
-/// Distribution of the diameters, by number.
+/// Distribution of the diameters (size_distribution.hpp).
 struct SizeDistribution {
   SizeKind kind = SizeKind::monodisperse;
-  double mean = 1;                ///< monodisperse, uniform: mean diameter d
+  double mean = 1;                ///< monodisperse, uniform: mean diameter d (by volume: the middle of the range)
   double spread = 0;              ///< uniform on [mean (1 - spread), mean (1 + spread)], 0 <= spread < 1
   std::vector<double> diameters;  ///< discrete: the values
-  std::vector<double> fractions;  ///< discrete: the share of each by number, sum 1
+  std::vector<double> fractions;  ///< discrete: the share of each, sum 1
+  bool by_volume = false;         ///< uniform, discrete: shares are of the grains' volume, not of their number
 };
 
 /// One grain placed by hand ([[grain]] entries).
@@ -110,7 +111,8 @@ enum class InitialKind {
   compressed_gas,  ///< a gas compressed isotropically to `pressure` before the run starts
   packing,         ///< positions read from a CSV file or a LAMMPS data file
   listed,          ///< the scene's [[grain]] entries
-  checkpoint       ///< the state that another run of this engine has left in a checkpoint
+  checkpoint,      ///< the state that another run of this engine has left in a checkpoint
+  dense            ///< disordered and dense by geometry alone, no two grains touching (dense_packing.hpp)
 };
 
 struct InitialSpec {
@@ -140,8 +142,29 @@ struct PlaneSpec {
   double force = 0;                   ///< on a free plane, along its normal: > 0 presses it against the grains
 };
 
-/// A rigid body made of the listed grains that name it: a clump, a rough wall, a rough cylinder. Rotations have 1
-/// component in 2D and 3 in 3D.
+enum class Axis { x, y, z };
+
+/// A smooth cylinder as a boundary (a circle in 2D). Grains are inside or outside.
+struct CylinderSpec {
+  std::vector<double> point;          ///< of its axis
+  double radius = 0;                  ///< R_c
+  bool outside = false;               ///< grains are around it, not in it
+  Axis axis = Axis::z;                ///< direction of the axis, 3D
+  std::vector<double> velocity = {};  ///< imposed; empty: at rest
+  double spin = 0;                    ///< imposed angular velocity about the axis
+  std::string material = {};          ///< name; empty: [material]
+};
+
+enum class BodyShape {
+  listed,  ///< the [[grain]] entries that name it
+  wall,    ///< a row or layer across the cell
+  ring,    ///< a circle, or a stack of circles along z
+  chain,   ///< a few grains in line
+  polygon  ///< a few grains at the corners of a regular polygon
+};
+
+/// A rigid body made of the listed grains that name it, or of grains that its shape says: a clump, a rough wall, a
+/// rough cylinder. Rotations have 1 component in 2D and 3 in 3D.
 struct BodySpec {
   std::string name = {};
   std::vector<double> velocity = {};     ///< of the centre, imposed where the body is not free; empty: at rest
@@ -153,6 +176,20 @@ struct BodySpec {
   std::optional<double> mass = {};       ///< default: its grains'
   std::vector<double> centre = {};       ///< of mass; empty: its grains'
   std::vector<double> inertia = {};      ///< about the centre: I, in 3D xx, yy, zz, xy, xz, yz; empty: its grains'
+  BodyShape shape = BodyShape::listed;   ///< wall and ring: body_shapes.hpp makes its grains
+  std::optional<double> at = {};         ///< wall: coordinate of its grains' centres along `across`
+  Axis across = Axis::y;                 ///< wall: the direction that it stands across
+  std::optional<double> radius = {};     ///< ring: of the circle of its grains' centres
+  bool outside = false;                  ///< ring: free grains are placed around it, not in it
+  double spacing = 1;                    ///< wall, ring: least distance of neighbours, in mean diameters; chain,
+                                         ///< polygon: their distance in diameters of its grains, which are equal
+  std::string material = {};             ///< of the grains of a shape
+  int size = 0;                          ///< chain, polygon: number of grains
+  int copies = 1;                        ///< chain, polygon: number of such bodies, placed and turned at random
+  std::vector<double> guide = {};        ///< moves freely along this direction only; empty: as `free` says
+  int segments = 0;                      ///< ring: > 0: so many bodies, each free along its radius
+  std::optional<double> pressure = {};   ///< ring of segments: presses each on the grains
+  int segment = 0;                       ///< ring of segments: which one this is, once there is a body for each
 };
 
 /// One degree of freedom of the cell, driven in rate or in stress. component: "xx", "xy", ... (L_xx, L_xy) or
@@ -190,7 +227,8 @@ struct LoadingSpec {
   bool hold_axial = false;                 ///< axial: the stress is held at what it is when the stage starts
   std::optional<double> unit_pressure;     ///< of a stage (stages.hpp): P of kappa and I, where it is not `pressure`
   std::vector<CellDrive> drives;
-  std::vector<double> gravity;  ///< acceleration, D components; empty: none
+  std::vector<double> gravity;        ///< acceleration, D components; empty: none
+  std::optional<double> inclination;  ///< degrees by which gravity is turned from the last direction towards x
 };
 
 enum class EngineKind { md, cd };
@@ -242,15 +280,15 @@ struct StageSpec : EndSpec {
   std::optional<double> friction = {};  ///< of [material] in this stage
 };
 
-enum class Axis { x, y, z };
-
 /// What a run measures and writes beyond the series of every run. Nothing of it changes the state that is reached.
 struct OutputSpec {
-  std::vector<std::string> measures;      ///< names of measure_names.hpp
-  int profile_layers = 20;                ///< of the measure "profile"
-  Axis profile_direction = Axis::y;       ///< the cell vector across which it goes
-  int frames = 0;                         ///< states written over the run, besides the first; 0: none
-  std::vector<std::string> formats = {};  ///< of frames: "paraview", "xyz", "lammps"; empty: paraview
+  std::vector<std::string> measures;        ///< names of measure_names.hpp
+  int profile_layers = 20;                  ///< of the measure "profile"
+  Axis profile_direction = Axis::y;         ///< the cell vector across which it goes
+  std::vector<double> profile_centre = {};  ///< of rings, in place of layers; empty: layers
+  std::vector<double> profile_radii = {};   ///< the innermost and the outermost one of the rings
+  int frames = 0;                           ///< states written over the run, besides the first; 0: none
+  std::vector<std::string> formats = {};    ///< of frames: "paraview", "xyz", "lammps"; empty: paraview
 };
 
 /// When a run is stopped because its state is no longer sound (src/guard.hpp).
@@ -284,6 +322,7 @@ struct Scene {
   InitialSpec initial;
   CellSpec cell;
   std::vector<PlaneSpec> planes;
+  std::vector<CylinderSpec> cylinders;
   std::vector<BodySpec> bodies;
   LoadingSpec loading;
   MdSpec md;

@@ -18,6 +18,7 @@ std::vector<Scene> stage_scenes(const Scene& scene) {
     one.loading.unit_pressure = scene.loading.pressure;
     if (!one.loading.pressure) one.loading.pressure = scene.loading.pressure;
     if (one.loading.gravity.empty()) one.loading.gravity = scene.loading.gravity;
+    if (!one.loading.inclination) one.loading.inclination = scene.loading.inclination;
     if (stage.friction) one.material.friction = *stage.friction;
     static_cast<EndSpec&>(one.run) = stage;
     scenes.push_back(std::move(one));
