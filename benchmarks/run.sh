@@ -4,6 +4,7 @@
 #   plane_shear_2d   galet compare scenes/plane_shear_2d.toml: both engines, speed against error
 #   isotropic_3d     both engines on scenes/isotropic_3d.toml
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
+#   presets          every ready scene with both engines side by side: stresses, Phi, z, mu*, energy budget, time (an hour or more)
 #   layouts          what each layout costs (Google Benchmark)
 #   md_scaling       speed, stages and memory of md from 1e3 to 64000 grains (half a minute; without --quick to 1e6)
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
@@ -36,6 +37,7 @@ for name in "${names[@]}"; do
       for engine in md cd; do
         "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
       done ;;
+    presets) "$bin/benchmarks/presets" scenes | tee "$out/presets.csv" ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     md_scaling) "$bin/benchmarks/md_scaling" --quick | tee "$out/md_scaling.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
