@@ -230,10 +230,10 @@ cell = {size = [9, 9], periodic = [false, false]}
   EXPECT_EQ(refused("point = [4, 4, 4], radius = 4"),
             (Mistakes{"5:22: cylinder[0].point: 2D needs 2 components, got 3"}));
   EXPECT_EQ(refused("point = [4, 4], radius = 4, spin = 1"),
-            (Mistakes{"5:48: cylinder[0].spin needs material.friction > 0: a smooth surface that turns has no effect "
+            (Mistakes{"5:49: cylinder[0].spin needs material.friction > 0: a smooth surface that turns has no effect "
                       "without"}));
   EXPECT_EQ(refused("point = [4, 4], radius = 4, axis = \"x\""),
-            (Mistakes{"5:48: cylinder[0].axis needs dimension = 3: in 2D the axis is the third direction"}));
+            (Mistakes{"5:49: cylinder[0].axis needs dimension = 3: in 2D the axis is the third direction"}));
   EXPECT_EQ(refused("point = [4, 4], radius = 0.5"),
             (Mistakes{"5:39: cylinder[0].radius: 0.5 is too narrow for grains of diameter 1 inside"}));
   EXPECT_EQ(mistakes_of("material = {restitution = 0.5, normal_stiffness = 1e4}\nrun.duration = 1\ngrains.count = 4\n"

@@ -28,19 +28,29 @@ void check_pluviation(EngineKind kind) {
   ASSERT_NE(result.ending, Ending::failed) << result.failure;
   const Snapshot<2> state = simulation.engine().snapshot();
   double weight = 0, carried = 0, fastest = 0;
-  for (int i = 0; i < 200; ++i) weight += state.mass[i], fastest = std::max(fastest, state.velocity[i].norm());
-  for (std::size_t c = 0; c < state.contacts->size(); ++c)
-    if (state.contacts->i[c] < 200 && state.contacts->j[c] >= 200) carried -= state.contacts->force[c].y();
+  for (int i = 0; i < 200; ++i) {
+    weight += state.mass[i];
+    fastest = std::max(fastest, state.velocity[i].norm());
+  }
   EXPECT_LT(fastest, 0.05) << "at rest";
-  // Balance of the whole: what still moves has accelerations of a few 1e-3 g.
+  // Mean force on the floor's grains over a time of 1 or more: what still moves at some 1e-3 on the mean changes it by
+  // as little.
+  constexpr int looks = 100;
+  for (int look = 0; look < looks; ++look) {
+    simulation.engine().advance(kind == EngineKind::cd ? 1 : 20);
+    const Snapshot<2> now = simulation.engine().snapshot();
+    for (std::size_t c = 0; c < now.contacts->size(); ++c)
+      if (now.contacts->i[c] < 200 && now.contacts->j[c] >= 200) carried -= now.contacts->force[c].y() / looks;
+  }
   EXPECT_NEAR(carried, weight, 0.02 * weight) << "the floor carries the weight";
   double phi = 0, rows = 0;
   for (const ProfileRow& row : result.measures.profile)
     if (row.position > 3 && row.position < 12) phi += row.solid_fraction, rows += 1;
-  RecordProperty(to_string(kind) + "_permille_Phi", static_cast<int>(1000 * phi / rows));
+  ::testing::Test::RecordProperty(to_string(kind) + "_permille_Phi", static_cast<int>(1000 * phi / rows));
   // Disks with friction come to rest between the loosest (about 0.79) and the densest packing (0.842); 100 grains in
   // the bulk leave a standard error of about 0.005.
-  EXPECT_GT(phi / rows, 0.785), EXPECT_LT(phi / rows, 0.845);
+  EXPECT_GT(phi / rows, 0.785);
+  EXPECT_LT(phi / rows, 0.845);
 }
 
 TEST(Assembly, PluviationComesToRestMd) { check_pluviation(EngineKind::md); }
@@ -58,11 +68,13 @@ TEST(Assembly, DenseStartIsDenserThanACompressedGas) {
       return result.last[Observable::solid_fraction];
     };
     const double dense = density({}), loose = density({{"initial.kind", "\"gas\""}, {"initial.solid_fraction", "0.5"}});
-    RecordProperty(to_string(kind) + "_permille_dense", static_cast<int>(1000 * dense));
-    RecordProperty(to_string(kind) + "_permille_loose", static_cast<int>(1000 * loose));
-    // Random close packing of disks is 0.842; samples of 300 scatter by 0.003.
-    EXPECT_GT(dense, 0.822), EXPECT_LT(dense, 0.845);
-    EXPECT_GT(loose, 0.79), EXPECT_LT(loose, dense - 0.003);
+    ::testing::Test::RecordProperty(to_string(kind) + "_permille_dense", static_cast<int>(1000 * dense));
+    ::testing::Test::RecordProperty(to_string(kind) + "_permille_loose", static_cast<int>(1000 * loose));
+    // It starts at 0.82 and is stopped by friction where the first network carries P, below random close packing.
+    EXPECT_GT(dense, 0.82);
+    EXPECT_LT(dense, 0.842);
+    EXPECT_GT(loose, 0.79);
+    EXPECT_LT(loose, dense - 0.003);
   }
 }
 
@@ -85,9 +97,10 @@ TEST(Assembly, AggregationLeavesALoosePackingUnderLowPressure) {
   const RunResult direct = Simulation<2>(scene, EngineKind::md).run();
   ASSERT_NE(direct.ending, Ending::failed) << direct.failure;
   const double loose = aggregated.last[Observable::solid_fraction], dense = direct.last[Observable::solid_fraction];
-  RecordProperty("permille_aggregated", static_cast<int>(1000 * loose));
-  RecordProperty("permille_direct", static_cast<int>(1000 * dense));
-  EXPECT_GT(loose, 0.42), EXPECT_LT(loose, 0.65);
+  ::testing::Test::RecordProperty("permille_aggregated", static_cast<int>(1000 * loose));
+  ::testing::Test::RecordProperty("permille_direct", static_cast<int>(1000 * dense));
+  EXPECT_GT(loose, 0.42);
+  EXPECT_LT(loose, 0.65);
   EXPECT_GT(dense, loose + 0.02);
 }
 

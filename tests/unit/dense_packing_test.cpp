@@ -11,6 +11,8 @@
 namespace galet::test::dense_packing_test {
 namespace {
 
+Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml"); }
+
 const std::string material = R"(material = {restitution = 0.5, normal_stiffness = 1e4}
 run.duration = 1
 initial.kind = "dense"
@@ -31,7 +33,7 @@ void expect_apart(const Sample<D>& sample) {
 }
 
 TEST(DensePacking, DisksFarAboveWhatInsertionReaches) {
-  const Sample<2> sample = initial_sample<2>(parse_scene(material + R"(
+  const Sample<2> sample = initial_sample<2>(scene_of(material + R"(
 grains = {count = 200, diameter = {distribution = "uniform", mean = 1, spread = 0.2}}
 initial.solid_fraction = 0.81
 )"));
@@ -40,7 +42,7 @@ initial.solid_fraction = 0.81
 }
 
 TEST(DensePacking, Spheres) {
-  const Sample<3> sample = initial_sample<3>(parse_scene("dimension = 3\n" + material + R"(
+  const Sample<3> sample = initial_sample<3>(scene_of("dimension = 3\n" + material + R"(
 grains.count = 150
 initial.solid_fraction = 0.6
 )"));
@@ -50,7 +52,7 @@ initial.solid_fraction = 0.6
 
 TEST(DensePacking, FillsACylinder) {
   // 100 disks of d = 1 within a circle of radius 5.75: 0.756, and 0.83 of what the room near the wall leaves.
-  const Sample<2> sample = initial_sample<2>(parse_scene(material + R"(
+  const Sample<2> sample = initial_sample<2>(scene_of(material + R"(
 grains = {count = 100, diameter = {distribution = "uniform", mean = 1, spread = 0.2}}
 cell = {size = [12, 12], periodic = [false, false]}
 cylinder = [{point = [6, 6], radius = 5.75}]
@@ -60,7 +62,7 @@ cylinder = [{point = [6, 6], radius = 5.75}]
 
 TEST(DensePacking, IsTheSameForTheSameSeed) {
   const std::string text = material + "grains.count = 50\ninitial.solid_fraction = 0.75\n";
-  const Sample<2> a = initial_sample<2>(parse_scene(text)), b = initial_sample<2>(parse_scene(text)),
+  const Sample<2> a = initial_sample<2>(scene_of(text)), b = initial_sample<2>(scene_of(text)),
                   c = initial_sample<2>(parse_scene(text, "s", {{"seed", "2"}}));
   EXPECT_EQ(a.position, b.position);
   EXPECT_NE(a.position, c.position);
@@ -70,7 +72,7 @@ TEST(DensePacking, WhatDoesNotFitIsRefused) {
   EXPECT_EQ(mistakes_of(material + "grains.count = 50\ninitial.solid_fraction = 0.85\n"),
             (std::vector<std::string>{"5:26: initial.solid_fraction is 0.85: a dense packing in 2D reaches 0.83"}));
   // Too many for the circle, which the cell does not know.
-  const Scene scene = parse_scene(material + R"(
+  const Scene scene = scene_of(material + R"(
 grains.count = 100
 cell = {size = [12, 12], periodic = [false, false]}
 cylinder = [{point = [6, 6], radius = 5}]

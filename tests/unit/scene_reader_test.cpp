@@ -43,7 +43,7 @@ stiffness_level = 1e4
 duration = 1
 pressure = 1
 )",
-       {R"(8:1: unknown name "pressure" in [run]; it belongs to [loading] or [stage.loading])"}},
+       {R"(8:1: unknown name "pressure" in [run]; it belongs to [[body]], [loading] or [stage.loading])"}},
       {"symbol_for_name",
        R"([grains]
 count = 10
