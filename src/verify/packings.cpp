@@ -101,8 +101,8 @@ std::vector<int> supports(const Snapshot<2>& state) {
   return count;
 }
 
-/// What changes between two states of a packing at rest. A grain that two contacts hold may roll between them: a motion
-/// that hardly any stiffness opposes and nothing damps, so that it has a displacement of its own.
+/// What changes between two states of a packing at rest; grains that two contacts hold, which may roll between them,
+/// are told apart. (Both kinds move alike in md, 1e-4: a drift of the packing as a whole is suspected, not proven.)
 Rest compare(const std::vector<Vec<2>>& before, const Snapshot<2>& state) {
   Rest rest;
   const std::vector<int> support = supports(state);
