@@ -1,6 +1,7 @@
 // galet solve: discrete contact problems from FCLIB files, one row for each.
 #include "cd/discrete/solve.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
