@@ -32,8 +32,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy solver_profile verify plane_shear_2d)
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
