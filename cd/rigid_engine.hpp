@@ -247,9 +247,8 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     for (std::size_t b = 0; b < bodies_.rigid.body.size(); ++b) {
       const RigidBody<D>& body = bodies_.rigid.body[b];
       start_.velocity[before + b] = body.velocity;
-      free_.velocity[before + b] =
-          body.velocity + dt * (body.mobility * (body.force + body.mass * bodies_.gravity) -
-                                bodies_.cell.rate * body.velocity);
+      free_.velocity[before + b] = body.velocity + dt * (body.mobility * (body.force + body.mass * bodies_.gravity) -
+                                                         bodies_.cell.rate * body.velocity);
       if constexpr (Y.friction) {
         const SpinMap<D> mobility = turning_mobility(body);
         if (bodies_.rigid.any_turning) problem_.turning[before + b - bodies_.position.size()] = mobility;

@@ -9,8 +9,8 @@ target_compile_options(galet_flags INTERFACE
   # -Wrestrict reports string concatenation falsely in GCC 12 (bug 105651).
   -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict)
 if(CMAKE_UNITY_BUILD)
-  # Types of a source's unnamed namespace look to GCC as if a header held them.
-  target_compile_options(galet_flags INTERFACE -Wno-subobject-linkage)
+  # Types of a source's unnamed namespace look to GCC as if a header held them, its constants as those of other sources.
+  target_compile_options(galet_flags INTERFACE -Wno-subobject-linkage -Wno-shadow)
 endif()
 if(GALET_VALIDATE)
   target_compile_definitions(galet_flags INTERFACE GALET_VALIDATE=1)

@@ -202,10 +202,10 @@ void check_body(Report& report, std::size_t k) {
   const auto& listed = report.scene.grains.listed;
   const bool used =
       std::any_of(listed.begin(), listed.end(), [&](const ListedGrain& grain) { return grain.body == body.name; });
-  report.rule(
-      body.shape == BodyShape::listed || !used, path + "name",
-      fmt::format("{}name: the shape makes the grains of {}: no [[grain]] can be glued to it", path, in_quotes(body.name)),
-      {"grain", path + "shape"});
+  report.rule(body.shape == BodyShape::listed || !used, path + "name",
+              fmt::format("{}name: the shape makes the grains of {}: no [[grain]] can be glued to it", path,
+                          in_quotes(body.name)),
+              {"grain", path + "shape"});
   report.rule(used || body.shape != BodyShape::listed, path + "name",
               fmt::format("{}name: no [[grain]] is glued to {}: give its grains body = {}", path, in_quotes(body.name),
                           in_quotes(body.name)),

@@ -256,7 +256,8 @@ void check_material_names(Report& report) {
     const std::string path = fmt::format("other_material[{}].name", k), &name = scene.other_materials[k].name;
     report.rule(!name.empty(), path, path + " is empty");
     report.rule(name.empty() || seen.insert(name).second, path,
-                fmt::format("{}: {} is the name of another material already", path, in_quotes(name)), {"material.name"});
+                fmt::format("{}: {} is the name of another material already", path, in_quotes(name)),
+                {"material.name"});
   }
   // Rows of pairs are numbered in one byte: 15 materials make 225 of them.
   report.rule(scene.other_materials.size() < 15, "other_material",

@@ -14,7 +14,7 @@ namespace galet::test {
 
 namespace {
 
-constexpr std::uint64_t seed = 4711;
+constexpr std::uint64_t damage_seed = 4711;
 
 constexpr const char* scene = R"(grains.count = 12
 material = {friction = 0.4, restitution = 0.1, stiffness_level = 1e3}
@@ -82,7 +82,7 @@ DamageCounts read_damaged_checkpoints(long first, long count) {
   const std::string good = file_bytes(path);
   DamageCounts counts;
   for (long k = first; k < first + count && counts.complaints.size() < 10; ++k) {
-    RandomStream random(seed, static_cast<std::uint64_t>(k));
+    RandomStream random(damage_seed, static_cast<std::uint64_t>(k));
     std::string bytes = good;
     const std::string what = damage(bytes, random);
     put_bytes(path, bytes);
