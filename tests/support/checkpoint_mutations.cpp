@@ -23,17 +23,17 @@ loading = {kind = "plane_shear", pressure = 1, inertial_number = 0.2}
 run = {duration = 2, samples = 10}
 )";
 
-std::size_t below(RandomStream& random, std::size_t count) {
+std::size_t number_below(RandomStream& random, std::size_t count) {
   return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
 }
 
 /// One kind of damage that disks, cables and programs do.
 std::string damage(std::string& bytes, RandomStream& random) {
-  const std::size_t place = below(random, bytes.size()), length = 1 + below(random, 600);
-  switch (below(random, 7)) {
+  const std::size_t place = number_below(random, bytes.size()), length = 1 + number_below(random, 600);
+  switch (number_below(random, 7)) {
     case 0:
     case 1:
-      bytes[place] = static_cast<char>(bytes[place] ^ (1 << below(random, 8)));
+      bytes[place] = static_cast<char>(bytes[place] ^ (1 << number_below(random, 8)));
       return fmt::format("a bit of byte {}", place);
     case 2:
       bytes.resize(place);
@@ -45,10 +45,10 @@ std::string damage(std::string& bytes, RandomStream& random) {
       bytes.erase(place, length);
       return fmt::format("{} bytes taken out at {}", length, place);
     case 5:
-      bytes.insert(place, std::string(length, static_cast<char>(below(random, 256))));
+      bytes.insert(place, std::string(length, static_cast<char>(number_below(random, 256))));
       return fmt::format("{} bytes put in at {}", length, place);
     default:
-      std::swap(bytes[place], bytes[below(random, bytes.size())]);
+      std::swap(bytes[place], bytes[number_below(random, bytes.size())]);
       return fmt::format("byte {} swapped", place);
   }
 }
