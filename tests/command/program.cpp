@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace galet::test::program_test {
+namespace galet::test {
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& log) {
   std::vector<std::string> words = {GALET_PROGRAM};
@@ -77,4 +77,4 @@ std::string hash_in(const std::string& summary) {
   return nlohmann::json::parse(read_file(summary)).at("state_hash").get<std::string>();
 }
 
-}  // namespace galet::test::program_test
+}  // namespace galet::test

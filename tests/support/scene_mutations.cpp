@@ -247,8 +247,10 @@ void compare(const TreeNode& node, const std::string& path, bool last, Scene& sc
     for (const TreeEntry& entry : *node.table())
       compare(entry.node, path.empty() ? entry.key : path + '.' + entry.key, last, scene, different);
   } else if (node.list() != nullptr && section != nullptr && section->list) {
+    // Bodies in copies, or cut into arcs, are read as several bodies with names of their own.
+    const bool whole = path != "body" || scene.bodies.size() == node.list()->size();
     for (std::size_t k = 0; k < node.list()->size(); ++k)
-      compare((*node.list())[k], path, last && k + 1 == node.list()->size(), scene, different);
+      compare((*node.list())[k], path, last && whole && k + 1 == node.list()->size(), scene, different);
   } else if (field == nullptr) {
     different.push_back(path + ": no field has this name");
   } else if (last && !std::visit(SameValue{*field, node, scene.dimension}, field->target(scene))) {

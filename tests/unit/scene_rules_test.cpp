@@ -426,12 +426,12 @@ loading.shear_rate = 1
       {"unknown_measure",
        sound + R"(output.measures = ["fabrc", 3]
 )",
-       {R"(5:20: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "profile", "voronoi", "indeterminacy" or "moduli", got "fabrc"; did you mean "fabric"?)",
-        R"(5:29: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "profile", "voronoi", "indeterminacy" or "moduli", got 3)"}},
+       {R"(5:20: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "directions", "profile", "voronoi", "indeterminacy" or "moduli", got "fabrc"; did you mean "fabric"?)",
+        R"(5:29: output.measures: expected "fabric", "friction", "temperature", "balance", "forces", "gaps", "directions", "profile", "voronoi", "indeterminacy" or "moduli", got 3)"}},
       {"measures_no_array",
        sound + R"(output.formats = "xyz"
 )",
-       {R"(5:18: output.formats: expected an array of "paraview", "xyz" or "lammps", got "xyz")"}},
+       {R"(5:18: output.formats: expected an array of "paraview", "hdf5", "xyz" or "lammps", got "xyz")"}},
       {"measures_repeated",
        sound + R"(output.measures = ["gaps", "gaps"]
 )",
