@@ -34,7 +34,7 @@ std::string scene_of(const std::string& engine, double duration) {
 engine = "{}"
 grains.count = 100
 material = {{friction = 0.4, restitution = 0.1, stiffness_level = 1e3}}
-initial = {{kind = "gas", solid_fraction = 0.6}}
+initial = {{kind = "gas", solid_fraction = 0.45}}
 loading = {{kind = "plane_shear", pressure = 1, inertial_number = 0.2}}
 cd = {{dt_factor = 0.02, tolerance = 1e-2}}
 run = {{duration = {}, samples = 200}}
