@@ -137,6 +137,16 @@ void save_sample(Archive& archive, const Sample<D>& sample) {
   std::vector<Vec<2>> drives;
   for (const Plane<D>& plane : sample.planes) drives.emplace_back(plane.inverse_mass, plane.force);
   put_column(archive, "sample.plane_drive", drives);
+  std::vector<Vec<2>> shape;
+  std::vector<Vec<D>> axis;
+  std::vector<Spin<D>> turning;
+  for (const Plane<D>& plane : sample.planes) {
+    shape.emplace_back(plane.radius, plane.inside ? 1 : 0);
+    axis.push_back(plane.axis), turning.push_back(plane.spin);
+  }
+  put_column(archive, "sample.cylinder", shape);
+  put_column(archive, "sample.cylinder_axis", axis);
+  put_column(archive, "sample.cylinder_spin", turning);
   put_column(archive, "sample.position", sample.position);
   put_column(archive, "sample.velocity", sample.velocity);
   put_column(archive, "sample.spin", sample.spin);
@@ -165,6 +175,16 @@ Sample<D> stored_sample(const Archive& archive) {
   take_column(archive, "sample.plane_drive", drives);
   for (std::size_t k = 0; k < drives.size(); ++k)
     sample.planes[k].inverse_mass = drives[k][0], sample.planes[k].force = drives[k][1];
+  std::vector<Vec<2>> shape(sample.planes.size());
+  std::vector<Vec<D>> axis(sample.planes.size());
+  std::vector<Spin<D>> turning(sample.planes.size(), zero_spin<D>());
+  take_column(archive, "sample.cylinder", shape);
+  take_column(archive, "sample.cylinder_axis", axis);
+  take_column(archive, "sample.cylinder_spin", turning);
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    sample.planes[k].radius = shape[k][0], sample.planes[k].inside = shape[k][1] != 0;
+    sample.planes[k].axis = axis[k], sample.planes[k].spin = turning[k];
+  }
   take_column(archive, "sample.position", sample.position);
   take_column(archive, "sample.velocity", sample.velocity);
   take_column(archive, "sample.spin", sample.spin);
