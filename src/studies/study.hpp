@@ -46,7 +46,7 @@ struct StudyRow {
 };
 
 /// What the study says about one published number.
-struct Finding {
+struct StudyFinding {
   std::string quantity;
   Estimate ours;
   Published published;
@@ -60,7 +60,7 @@ struct NamedFigure {
 };
 
 struct StudyReport {
-  std::vector<Finding> findings;
+  std::vector<StudyFinding> findings;
   std::vector<NamedFigure> figures;
   std::vector<std::string> remarks;
 

@@ -41,7 +41,7 @@ Json of(const StudyRow& row) {
   return json;
 }
 
-Json of(const Finding& finding) {
+Json of(const StudyFinding& finding) {
   Json json{{"quantity", finding.quantity},
             {"ours", of(finding.ours)},
             {"claim", claim_text(finding.published)},
@@ -91,7 +91,7 @@ CsvTable findings_table(const StudyReport& report) {
   const auto claim = [](Claim kind) {
     return std::string(kind == Claim::equal ? "equal" : kind == Claim::at_least ? "at least" : "at most");
   };
-  for (const Finding& finding : report.findings)
+  for (const StudyFinding& finding : report.findings)
     table.rows.push_back({finding.quantity, cell(finding.ours.value), cell(finding.ours.error),
                           claim(finding.published.claim), finding.published.value, finding.published.uncertainty,
                           to_string(finding.verdict), std::string(finding.published.source),
@@ -116,7 +116,7 @@ std::string study_json(const Study& study, const StudyOutcome& outcome) {
             {"rows", Json::array()},
             {"costs", Json::array()},
             {"remarks", outcome.report.remarks}};
-  for (const Finding& finding : outcome.report.findings) json["findings"].push_back(of(finding));
+  for (const StudyFinding& finding : outcome.report.findings) json["findings"].push_back(of(finding));
   for (const StudyRow& row : outcome.rows) json["rows"].push_back(of(row));
   for (const CostPair& pair : cost_pairs(study, outcome.rows))
     json["costs"].push_back({{"state", pair.state}, {"md", pair.md}, {"cd", pair.cd}});

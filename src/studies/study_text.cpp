@@ -44,7 +44,7 @@ std::string runs_text(const Study& study, const StudyOutcome& outcome) {
 std::string findings_text(const StudyReport& report) {
   TextTable table({"finding", "ours", "published", "agrees"});
   std::string notes;
-  for (const Finding& finding : report.findings) {
+  for (const StudyFinding& finding : report.findings) {
     table.add({finding.quantity, with_error(finding.ours), claim_text(finding.published), to_string(finding.verdict)});
     if (!finding.note.empty()) notes += fmt::format("  note  {}: {}\n", finding.quantity, finding.note);
   }

@@ -93,7 +93,7 @@ TEST(StudyRegistry, PlansHaveDistinctNamesAndScenesThatCanBeRead) {
 TEST(StudyRegistry, WithoutRowsEverythingIsOpen) {
   for (const Study& study : all_studies()) {
     const StudyReport report = study.evaluate({});
-    for (const Finding& finding : report.findings) EXPECT_EQ(finding.verdict, Verdict::open) << finding.quantity;
+    for (const StudyFinding& finding : report.findings) EXPECT_EQ(finding.verdict, Verdict::open) << finding.quantity;
   }
 }
 
