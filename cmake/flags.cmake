@@ -48,33 +48,56 @@ function(galet_library name)
   set_source_files_properties(instances.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Kernels are compiled once per instruction set (common/core/instructions.hpp).
+# Kernels are compiled once per instruction set (common/core/instructions.hpp): GALET_SETS has those of this build.
 include(CheckCXXCompilerFlag)
-check_cxx_compiler_flag("-mavx2 -mfma" galet_compiles_avx2)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND galet_compiles_avx2)
-  set(GALET_AVX2 ON)
-else()
-  set(GALET_AVX2 OFF)
+set(GALET_SET_FLAGS_avx2 -mavx2 -mfma)
+# GCC 12 takes the operands that its own AVX-512 intrinsics leave open for uninitialised (bug 105593).
+set(GALET_SET_FLAGS_avx512 -mavx2 -mfma -mavx512f -mavx512dq -mavx512vl -Wno-maybe-uninitialized)
+set(GALET_SETS)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  foreach(set avx2 avx512)
+    list(JOIN GALET_SET_FLAGS_${set} " " flags)
+    check_cxx_compiler_flag("${flags}" galet_compiles_${set})
+    if(galet_compiles_${set})
+      list(APPEND GALET_SETS ${set})
+    endif()
+  endforeach()
 endif()
 
-# galet_kernels(): the flags of the present folder's kernel/scalar.cpp and kernel/avx2.cpp.
+# galet_name_sets(SOURCE): defines GALET_AVX2 and its kin, of the sets of this build, for a source that chooses.
+function(galet_name_sets source)
+  foreach(set ${GALET_SETS})
+    string(TOUPPER GALET_${set} name)
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS ${name})
+  endforeach()
+endfunction()
+
+# galet_kernels(): the flags of the present folder's kernel/scalar.cpp, kernel/avx2.cpp and, if there, kernel/avx512.cpp.
 function(galet_kernels)
   set(kernels kernel/scalar.cpp)
-  if(GALET_AVX2)
-    set_source_files_properties(kernel/avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
-    set_source_files_properties(kernel/dispatch.cpp PROPERTIES COMPILE_DEFINITIONS GALET_AVX2)
-    list(APPEND kernels kernel/avx2.cpp)
-  else()
-    set_source_files_properties(kernel/avx2.cpp PROPERTIES HEADER_FILE_ONLY ON)
-  endif()
+  galet_name_sets(kernel/dispatch.cpp)
+  foreach(set avx2 avx512)
+    set(kernel kernel/${set}.cpp)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${kernel})
+      continue()
+    endif()
+    if(set IN_LIST GALET_SETS)
+      set_source_files_properties(${kernel} PROPERTIES COMPILE_OPTIONS "${GALET_SET_FLAGS_${set}}")
+      list(APPEND kernels ${kernel})
+    else()
+      set_source_files_properties(${kernel} PROPERTIES HEADER_FILE_ONLY ON)
+    endif()
+    # Sanitizers need no such speed, and take minutes to compile what was inlined: they watch the scalar build of the
+    # same source.
+    if(GALET_SANITIZE)
+      set_property(SOURCE ${kernel} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
+    endif()
+  endforeach()
   # A kernel file sees nothing but what it includes (md/kernel/dispatch.hpp says why).
   set_source_files_properties(${kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   # All kernels of one instruction set are one file: without these limits raised GCC stops inlining in the middle of
-  # the inner loops. Sanitizers need no such speed, and take minutes to compile what was inlined: they watch the scalar
-  # build of the same source.
-  if(GALET_SANITIZE)
-    set_property(SOURCE kernel/avx2.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
-  elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # the inner loops.
+  if(NOT GALET_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS
       "--param=inline-unit-growth=400;--param=large-function-growth=1000;--param=large-stack-frame-growth=4000")
   endif()

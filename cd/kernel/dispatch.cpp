@@ -9,7 +9,8 @@ SweepFunctions sweep_functions_of_width(bool cell);
 template <Layout Y>
 SweepFunctions sweep_functions([[maybe_unused]] Instructions set, bool cell) {
 #ifdef GALET_AVX2
-  if (set == Instructions::avx2) return sweep_functions_of_width<Y, 4>(cell);
+  // There are no sweeps on eight lanes: those of four serve every wider set.
+  if (set != Instructions::scalar) return sweep_functions_of_width<Y, 4>(cell);
 #endif
   return sweep_functions_of_width<Y, 1>(cell);
 }

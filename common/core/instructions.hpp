@@ -9,11 +9,13 @@
 
 namespace galet {
 
-enum class Instructions { scalar, avx2 };
+enum class Instructions { scalar, avx2, avx512 };
 
 std::string_view to_string(Instructions set);
 
-/// What the processor has, and this build holds kernels for.
+/// Whether the processor has it, and this build holds kernels for it.
+bool has_instructions(Instructions set);
+/// The widest of those.
 Instructions best_instructions();
 
 /// What engines made from now on use; at the start the best there is. Throws InputError when the processor lacks it.

@@ -112,6 +112,66 @@ GALET_INLINE void transpose(Lanes<4>& a, Lanes<4>& b, Lanes<4>& c, Lanes<4>& d) 
 }
 #endif
 
+#ifdef __AVX512F__
+
+template <>
+struct Mask<8> {
+  __mmask8 on;
+};
+GALET_INLINE Mask<8> operator&(Mask<8> a, Mask<8> b) { return {static_cast<__mmask8>(a.on & b.on)}; }
+GALET_INLINE Mask<8> operator|(Mask<8> a, Mask<8> b) { return {static_cast<__mmask8>(a.on | b.on)}; }
+GALET_INLINE Mask<8> without(Mask<8> a, Mask<8> b) { return {static_cast<__mmask8>(a.on & ~b.on)}; }
+GALET_INLINE unsigned bits(Mask<8> a) { return a.on; }
+
+template <>
+GALET_INLINE Mask<8> mask_of<8>(unsigned bits) {
+  return {static_cast<__mmask8>(bits)};
+}
+
+template <>
+struct Lanes<8> {
+  __m512d v;
+  GALET_INLINE Lanes() = default;
+  GALET_INLINE Lanes(__m512d value) : v(value) {}
+  GALET_INLINE Lanes(double value) : v(_mm512_set1_pd(value)) {}
+  GALET_INLINE static Lanes load(const double* from) { return _mm512_load_pd(from); }
+  GALET_INLINE void store(double* to) const { _mm512_store_pd(to, v); }
+};
+GALET_INLINE Lanes<8> operator+(Lanes<8> a, Lanes<8> b) { return _mm512_add_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> operator-(Lanes<8> a, Lanes<8> b) { return _mm512_sub_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> operator*(Lanes<8> a, Lanes<8> b) { return _mm512_mul_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> operator/(Lanes<8> a, Lanes<8> b) { return _mm512_div_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> operator-(Lanes<8> a) { return _mm512_xor_pd(a.v, _mm512_set1_pd(-0.0)); }
+GALET_INLINE Lanes<8> madd(Lanes<8> a, Lanes<8> b, Lanes<8> c) { return _mm512_fmadd_pd(a.v, b.v, c.v); }
+GALET_INLINE Lanes<8> nmadd(Lanes<8> a, Lanes<8> b, Lanes<8> c) { return _mm512_fnmadd_pd(a.v, b.v, c.v); }
+GALET_INLINE Lanes<8> msub(Lanes<8> a, Lanes<8> b, Lanes<8> c) { return _mm512_fmsub_pd(a.v, b.v, c.v); }
+GALET_INLINE Mask<8> operator<(Lanes<8> a, Lanes<8> b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)}; }
+GALET_INLINE Lanes<8> sqrt(Lanes<8> a) { return _mm512_sqrt_pd(a.v); }
+GALET_INLINE Lanes<8> max(Lanes<8> a, Lanes<8> b) { return _mm512_max_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> min(Lanes<8> a, Lanes<8> b) { return _mm512_min_pd(a.v, b.v); }
+GALET_INLINE Lanes<8> select(Mask<8> mask, Lanes<8> yes, Lanes<8> no) {
+  return _mm512_mask_mov_pd(no.v, mask.on, yes.v);
+}
+GALET_INLINE Lanes<8> only(Mask<8> mask, Lanes<8> value) { return _mm512_maskz_mov_pd(mask.on, value.v); }
+
+/// Eight rows of four to four columns; on entry rows 0 and 2, 1 and 3, 4 and 6, 5 and 7 share a register.
+GALET_INLINE void columns_of_eight(Lanes<8>& a, Lanes<8>& b, Lanes<8>& c, Lanes<8>& d) {
+  const __m512d low_ab = _mm512_unpacklo_pd(a.v, b.v), high_ab = _mm512_unpackhi_pd(a.v, b.v);
+  const __m512d low_cd = _mm512_unpacklo_pd(c.v, d.v), high_cd = _mm512_unpackhi_pd(c.v, d.v);
+  a = _mm512_shuffle_f64x2(low_ab, low_cd, 0x88), c = _mm512_shuffle_f64x2(low_ab, low_cd, 0xdd);
+  b = _mm512_shuffle_f64x2(high_ab, high_cd, 0x88), d = _mm512_shuffle_f64x2(high_ab, high_cd, 0xdd);
+}
+/// Four columns to eight rows of four; on return rows share registers as on entry of columns_of_eight.
+GALET_INLINE void rows_of_eight(Lanes<8>& a, Lanes<8>& b, Lanes<8>& c, Lanes<8>& d) {
+  const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11),
+                last = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+  const __m512d low_ab = _mm512_unpacklo_pd(a.v, b.v), high_ab = _mm512_unpackhi_pd(a.v, b.v);
+  const __m512d low_cd = _mm512_unpacklo_pd(c.v, d.v), high_cd = _mm512_unpackhi_pd(c.v, d.v);
+  a = _mm512_permutex2var_pd(low_ab, first, low_cd), c = _mm512_permutex2var_pd(low_ab, last, low_cd);
+  b = _mm512_permutex2var_pd(high_ab, first, high_cd), d = _mm512_permutex2var_pd(high_ab, last, high_cd);
+}
+#endif
+
 template <int W>
 GALET_INLINE Lanes<W>& operator+=(Lanes<W>& a, Lanes<W> b) {
   return a = a + b;

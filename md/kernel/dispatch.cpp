@@ -10,6 +10,9 @@ GrainFunctions grain_functions_of_width();
 
 template <Layout Y>
 PassFunction pass_function([[maybe_unused]] Instructions set, Kernel kernel) {
+#ifdef GALET_AVX512
+  if (set == Instructions::avx512) return pass_of_width<Y, 8>(kernel);
+#endif
 #ifdef GALET_AVX2
   if (set == Instructions::avx2) return pass_of_width<Y, 4>(kernel);
 #endif
@@ -19,7 +22,8 @@ PassFunction pass_function([[maybe_unused]] Instructions set, Kernel kernel) {
 template <Layout Y>
 GrainFunctions grain_functions([[maybe_unused]] Instructions set) {
 #ifdef GALET_AVX2
-  if (set == Instructions::avx2) return grain_functions_of_width<Y, 4>();
+  // A grain is worked on as groups of four doubles: eight lanes have no use there.
+  if (set != Instructions::scalar) return grain_functions_of_width<Y, 4>();
 #endif
   return grain_functions_of_width<Y, 1>();
 }

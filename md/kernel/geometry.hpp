@@ -98,6 +98,53 @@ GALET_INLINE Group<Minus, 4> combine_shifted(const PassView& view, const RowBloc
 
 #endif
 
+#ifdef __AVX512F__
+
+/// In which half of which of four registers each of eight rows lies (columns_of_eight): first and second half.
+inline constexpr int halves_of_eight[4][2] = {{0, 2}, {1, 3}, {4, 6}, {5, 7}};
+
+template <unsigned Minus>
+GALET_INLINE __m512d signed_sum(__m512d i, __m512d j) {
+  const __m512d flip = _mm512_broadcast_f64x4(_mm256_setr_pd((Minus & 1) ? -0.0 : 0.0, (Minus & 2) ? -0.0 : 0.0,
+                                                             (Minus & 4) ? -0.0 : 0.0, (Minus & 8) ? -0.0 : 0.0));
+  return Minus == 0    ? _mm512_add_pd(j, i)
+         : Minus == 15 ? _mm512_sub_pd(j, i)
+                       : _mm512_add_pd(j, _mm512_xor_pd(i, flip));
+}
+GALET_INLINE __m512d two_fours(const double* first, const double* second) {
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(first)), _mm256_load_pd(second), 1);
+}
+template <unsigned Minus>
+GALET_INLINE Group<Minus, 8> combine(const double* records, int group, const std::uint32_t* i, const std::uint32_t* j,
+                                     Lanes<8>) {
+  Group<Minus, 8> result;
+  for (int k = 0; k < 4; ++k) {
+    const int a = halves_of_eight[k][0], b = halves_of_eight[k][1];
+    const auto both = [&](const std::uint32_t* of) {
+      return two_fours(at_bytes(records, of[a]) + 4 * group, at_bytes(records, of[b]) + 4 * group);
+    };
+    result.component[k].v = signed_sum<Minus>(both(i), both(j));
+  }
+  columns_of_eight(result.component[0], result.component[1], result.component[2], result.component[3]);
+  return result;
+}
+template <unsigned Minus>
+GALET_INLINE Group<Minus, 8> combine_shifted(const PassView& view, const RowBlock& block, int, Lanes<8>) {
+  Group<Minus, 8> result;
+  for (int k = 0; k < 4; ++k) {
+    const int a = halves_of_eight[k][0], b = halves_of_eight[k][1];
+    const auto both = [&](const double* base, const std::uint32_t* of) {
+      return two_fours(at_bytes(base, of[a]), at_bytes(base, of[b]));
+    };
+    result.component[k].v = _mm512_add_pd(signed_sum<Minus>(both(view.records, block.i), both(view.records, block.j)),
+                                          both(view.shifts, block.shift));
+  }
+  columns_of_eight(result.component[0], result.component[1], result.component[2], result.component[3]);
+  return result;
+}
+
+#endif
+
 /// gradient x + y.
 template <class V>
 GALET_INLINE Plane2<V> affine(const double* gradient, const Plane2<V>& x, const Plane2<V>& y) {

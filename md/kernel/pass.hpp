@@ -16,6 +16,13 @@ void evaluate_blocks(const PassView& given, std::size_t begin, std::size_t end, 
   if constexpr (W == 1) {
     for (std::size_t index = begin; index < end; ++index)
       for (int lane = 0; lane < block_rows; ++lane) rows.evaluate(place(index, lane), index, lane);
+  } else if constexpr (W == block_rows) {
+    Place<Y, W> present = place(begin, 0);
+    for (std::size_t index = begin; index < end; ++index) {
+      const Place<Y, W> next = place(index + 1, 0);
+      rows.evaluate(present, index, 0);
+      present = next;
+    }
   } else {
     static_assert(2 * W == block_rows);
     Place<Y, W> low = place(begin, 0);

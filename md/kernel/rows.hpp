@@ -34,6 +34,23 @@ GALET_INLINE void write_out(double* out, Lanes<4> a, Lanes<4> b, Lanes<4> c, Lan
   a.store(out), b.store(out + size), c.store(out + 2 * size), d.store(out + 3 * size);
 }
 #endif
+#ifdef __AVX512F__
+GALET_INLINE void write_out(double* out, const Plane2<Lanes<8>>& force) {
+  const __m512i first = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
+                last = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  _mm512_store_pd(out, _mm512_permutex2var_pd(force.x.v, first, force.y.v));
+  _mm512_store_pd(out + 8, _mm512_permutex2var_pd(force.x.v, last, force.y.v));
+}
+/// Four components of eight rows, `size` doubles apart.
+GALET_INLINE void write_out(double* out, Lanes<8> a, Lanes<8> b, Lanes<8> c, Lanes<8> d, int size) {
+  rows_of_eight(a, b, c, d);
+  const Lanes<8> registers[4] = {a, b, c, d};
+  for (int k = 0; k < 4; ++k) {
+    _mm256_store_pd(out + halves_of_eight[k][0] * size, _mm512_castpd512_pd256(registers[k].v));
+    _mm256_store_pd(out + halves_of_eight[k][1] * size, _mm512_extractf64x4_pd(registers[k].v, 1));
+  }
+}
+#endif
 
 /// The constants of the pairs of W rows.
 template <int W>

@@ -2,7 +2,7 @@
 # The objects of the kernels define nothing that another file could define too: else the linker might keep the one that
 # is compiled for a processor that is not there.  kernels.sh OBJECT...   (objects of others are passed over)
 #
-# Every symbol must carry the width of the lanes among its template arguments: Li1E (scalar) or Li4E (avx2).
+# Every symbol must carry the width of the lanes among its template arguments: Li1E (scalar), Li4E (avx2) or Li8E (avx512).
 set -u
 
 status=0 seen=0
@@ -10,6 +10,7 @@ for object in "$@"; do
   case $object in
     *kernel/scalar.cpp.o) width=1 ;;
     *kernel/avx2.cpp.o) width=4 ;;
+    *kernel/avx512.cpp.o) width=8 ;;
     *) continue ;;
   esac
   seen=$((seen + 1))
