@@ -5,34 +5,48 @@
 
 namespace galet::md {
 
-/// Where the next rows are is found before the law of the present ones is applied: its long chain of operations waits
-/// for none of them, nor they for it. (After the last block comes one that only fills up.)
+/// The work on W rows is one long chain of operations of which each waits for the last. So three groups of rows are on
+/// their way at a time, each a stage behind the next: where the grains are, how they move and what the spring has
+/// become in their frame, the laws. The processor finds work in all three. Past the end of the range its last block is
+/// looked at again in vain: the next one may be written by another thread.
+template <Layout Y, Kernel K, int W>
+class Stages {
+ public:
+  GALET_INLINE Stages(const PassView& view, std::size_t begin, std::size_t end, LaneSums& sums)
+      : view_(view), rows_(view, sums), group_(begin * groups), end_(end * groups) {
+    present_ = rows_.meet(place(group_), block(group_), lane(group_));
+    next_ = place(group_ + 1);
+  }
+  GALET_INLINE bool left() const { return group_ < end_; }
+  GALET_INLINE void advance() {
+    rows_.evaluate(present_, group_ / groups, lane(group_));
+    ++group_;
+    present_ = rows_.meet(next_, block(group_), lane(group_));
+    next_ = place(group_ + 1);
+  }
+
+ private:
+  static constexpr std::size_t groups = block_rows / W;  ///< of a block
+
+  GALET_INLINE std::size_t block(std::size_t group) const { return group < end_ ? group / groups : end_ / groups - 1; }
+  GALET_INLINE static int lane(std::size_t group) { return static_cast<int>(group % groups) * W; }
+  GALET_INLINE Place<Y, W> place(std::size_t group) const {
+    return place_of<Y, W>(view_, view_.blocks[block(group)], lane(group));
+  }
+
+  const PassView& view_;
+  Rows<Y, K, W> rows_;
+  typename Rows<Y, K, W>::Pair present_;
+  Place<Y, W> next_;
+  std::size_t group_, end_;
+};
+
 template <Layout Y, Kernel K, int W>
 void evaluate_blocks(const PassView& given, std::size_t begin, std::size_t end, LaneSums& sums) {
   if (begin == end) return;
   const PassView view = given;  // a copy that nothing else can change: it stays in registers
-  Rows<Y, K, W> rows(view, sums);
-  const auto place = [&](std::size_t index, int lane) { return place_of<Y, W>(view, view.blocks[index], lane); };
-  if constexpr (W == 1) {
-    for (std::size_t index = begin; index < end; ++index)
-      for (int lane = 0; lane < block_rows; ++lane) rows.evaluate(place(index, lane), index, lane);
-  } else if constexpr (W == block_rows) {
-    Place<Y, W> present = place(begin, 0);
-    for (std::size_t index = begin; index < end; ++index) {
-      const Place<Y, W> next = place(index + 1, 0);
-      rows.evaluate(present, index, 0);
-      present = next;
-    }
-  } else {
-    static_assert(2 * W == block_rows);
-    Place<Y, W> low = place(begin, 0);
-    for (std::size_t index = begin; index < end; ++index) {
-      const Place<Y, W> high = place(index, W);
-      rows.evaluate(low, index, 0);
-      low = place(index + 1, 0);
-      rows.evaluate(high, index, W);
-    }
-  }
+  Stages<Y, K, W> stages(view, begin, end, sums);
+  while (stages.left()) stages.advance();
 }
 
 /// The kernels of one layout.

@@ -1,4 +1,4 @@
-// The contact laws applied to W rows: second stage of the contact pass.
+// The contact laws applied to W rows: second and third stage of the contact pass (pass.hpp).
 #pragma once
 
 #include "md/kernel/geometry.hpp"
@@ -81,6 +81,7 @@ class Rows {
   using Vector = typename LaneTypes<Y, V>::Vector;
   using Spin = typename LaneTypes<Y, V>::Spin;
   using C = RowColumns<Y>;
+  using Spring = Spin;  // a number in 2D, a vector of the tangent plane in 3D
 
   GALET_INLINE Rows(const PassView& view, LaneSums& sums)
       : view_(view),
@@ -89,17 +90,34 @@ class Rows {
         half_after_(view.half_after),
         common_(same_terms<W>(view.terms[0])) {}
 
-  /// The W rows from `lane` on of a block.
-  GALET_INLINE void evaluate(const Place<Y, W>& place, std::size_t index, int lane) {
+  /// What is known of W pairs before a law is applied.
+  struct Pair : Place<Y, W>, Motion<Y, W> {
+    using Motion<Y, W>::centres;
+    V opening;      ///< opening velocity, n.(v_j - v_i)
+    Spring spring;  ///< elongation of the sliding spring, as stored, in the present frame
+  };
+
+  /// The W rows from `lane` on of a block: second stage.
+  GALET_INLINE Pair meet(const Place<Y, W>& place, std::size_t index, int lane) const {
+    Pair at{place, motion_of<Y, W>(view_, view_.blocks[index], lane, place), {}, {}};
+    at.opening = dot(at.normal, at.centres);
+    if constexpr (Y.friction) {
+      const double* columns = columns_of(index, lane);
+      at.spring = transported<Spring>(columns + C::spring * block_rows, at, columns);
+    }
+    return at;
+  }
+
+  /// The same: third stage.
+  GALET_INLINE void evaluate(const Pair& at, std::size_t index, int lane) {
     RowBlock& block = view_.blocks[index];
-    const Pair at{place, motion_of<Y, W>(view_, block, lane, place)};
     const RowConstants& constants = view_.constants[index * view_.constants_stride];
-    double* columns = view_.columns + (index * C::count) * block_rows + lane;
+    double* columns = columns_of(index, lane);
     double* out = view_.out + (index * block_rows + lane) * out_size(Y);
     const PairTerms<V> terms = K.general && view_.laws > 1 ? terms_of_rows<W>(view_, block, lane) : common_;
     const V deflection = V::load(constants.reach + lane) - at.distance;
     const M touching = V(0.0) < deflection;
-    const V depth = max(deflection, V(0.0)), opening = dot(at.normal, at.centres);
+    const V depth = max(deflection, V(0.0)), opening = at.opening;
     const V coefficient = V::load(constants.coefficient + lane), critical = V::load(constants.critical + lane);
     const NormalForce<V> normal = normal_force<K>(view_.kind, terms, coefficient, critical, depth, opening);
     V along = only(touching, normal.force);
@@ -144,9 +162,9 @@ class Rows {
   }
 
  private:
-  struct Pair : Place<Y, W>, Motion<Y, W> {
-    using Motion<Y, W>::centres;
-  };
+  GALET_INLINE double* columns_of(std::size_t index, int lane) const {
+    return view_.columns + index * C::count * block_rows + lane;
+  }
 
   /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
   struct Ahead {
@@ -219,19 +237,17 @@ class Rows {
     value.x.store(column), value.y.store(column + block_rows), value.z.store(column + 2 * block_rows);
   }
 
-  /// A spring of the row's columns, brought from the last step's frame and stiffness to the present ones.
+  /// A spring of the row's columns, brought from the last step's frame to the present one.
   template <class Value>
-  GALET_INLINE Value carried_spring(const double* column, const Pair& at, const double* columns, V factor,
-                                    V stiffness_before, const NormalForce<V>& normal, Losses<V>& losses) const {
-    Value spring = load(column, Value{});
+  GALET_INLINE Value transported(const double* column, const Pair& at, const double* columns) const {
+    const Value spring = load(column, Value{});
     if constexpr (Y.dim == 3 && sizeof(Value) == sizeof(Space<V>)) {
       // The twist comes first: it doesn't wait for the new normal.
       const Space<V> before = load(columns + C::normal * block_rows, Space<V>{});
-      spring = carried(twisted(spring, before, at.together, half_before_), before, at.normal);
+      return carried(twisted(spring, before, at.together, half_before_), before, at.normal);
+    } else {
+      return spring;
     }
-    if (varying())
-      adapt_spring<K>(factor * stiffness_before, factor * normal.stiffness, half_before_ + half_after_, spring, losses);
-    return spring;
   }
 
   /// The springs of rows that part are given up; returns the elongation to store.
@@ -248,15 +264,16 @@ class Rows {
     add_lanes(sums[2], lane, only(touching, losses.unloading));
   }
 
-  /// One spring from load to store; returns its force.
+  /// One spring, `elongation` in the present frame, until it is stored; returns its force.
   template <class Value>
-  GALET_INLINE Value spring(double* column, const Pair& at, const NormalForce<V>& normal, const Ahead& ahead,
-                            const double* columns, M touching, V stiffness_before, V factor, V reach, V viscosity,
-                            bool total, const Value& rate, const Crossing& cross, double (*sums)[block_rows],
-                            int lane) {
+  GALET_INLINE Value spring(double* column, Value elongation, const NormalForce<V>& normal, const Ahead& ahead,
+                            M touching, V stiffness_before, V factor, V reach, V viscosity, bool total,
+                            const Value& rate, const Crossing& cross, double (*sums)[block_rows], int lane) {
     Losses<V> losses;
     const Value before = load(column, Value{});
-    Value elongation = carried_spring<Value>(column, at, columns, factor, stiffness_before, normal, losses);
+    if (varying())
+      adapt_spring<K>(factor * stiffness_before, factor * normal.stiffness, half_before_ + half_after_, elongation,
+                      losses);
     if (__builtin_expect(cross.any, 0)) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
     const SpringTerms<V> law{factor * normal.stiffness,
                              reach * normal.bound,
@@ -307,7 +324,7 @@ class Rows {
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent{-at.normal.y, at.normal.x};
       const V rate = nmadd(stretch, at.surface, dot(tangent, at.centres));
-      V tangential = -spring<V>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
+      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
                                 terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
       if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
@@ -316,7 +333,7 @@ class Rows {
       const Space<V> arm = stretch * at.normal;
       const Space<V> rate = madd_cross(arm, at.surface, nmadd(opening, at.normal, at.centres));
       Space<V> resisting =
-          spring<Space<V>>(column, at, normal, ahead, columns, touching, stiffness_before, terms.tangential_ratio,
+          spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
                            terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
       if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
@@ -333,17 +350,20 @@ class Rows {
     double* column = columns + C::rolling * block_rows;
     const M rolls = touching & (V(0.0) < terms.rolling_friction);
     if constexpr (Y.dim == 2) {
-      return -spring<V>(column, at, normal, ahead, columns, rolls, stiffness_before, terms.rolling_stiffness,
-                        terms.rolling_friction, V(0.0), false, at.relative, cross, sums_.rolling, lane);
+      return -spring<V>(column, transported<V>(column, at, columns), normal, ahead, rolls, stiffness_before,
+                        terms.rolling_stiffness, terms.rolling_friction, V(0.0), false, at.relative, cross,
+                        sums_.rolling, lane);
     } else {
       const V about = dot(at.relative, at.normal);
-      const Space<V> rolling = spring<Space<V>>(column, at, normal, ahead, columns, rolls, stiffness_before,
-                                                terms.rolling_stiffness, terms.rolling_friction, V(0.0), false,
-                                                nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane);
+      const Space<V> rolling =
+          spring<Space<V>>(column, transported<Space<V>>(column, at, columns), normal, ahead, rolls, stiffness_before,
+                           terms.rolling_stiffness, terms.rolling_friction, V(0.0), false,
+                           nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane);
+      double* turns = columns + C::pivoting * block_rows;
       const M pivots = touching & (V(0.0) < terms.pivoting_friction);
-      const V pivoting = spring<V>(columns + C::pivoting * block_rows, at, normal, ahead, columns, pivots,
-                                   stiffness_before, terms.pivoting_stiffness, terms.pivoting_friction, V(0.0), false,
-                                   about, cross, sums_.pivoting, lane);
+      const V pivoting =
+          spring<V>(turns, load(turns, V{}), normal, ahead, pivots, stiffness_before, terms.pivoting_stiffness,
+                    terms.pivoting_friction, V(0.0), false, about, cross, sums_.pivoting, lane);
       return V(-1.0) * madd(pivoting, at.normal, rolling);
     }
   }
