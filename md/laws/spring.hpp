@@ -41,13 +41,28 @@ struct Losses {
   V unloading{};  ///< by a change of K
 };
 
+/// length / sqrt(squared), the root and the division side by side; not a number where `squared` is zero.
 template <class V>
-GALET_INLINE V norm(const V& value) {
-  return max(value, -value);
+GALET_INLINE V share(V length, V squared) {
+  return length * sqrt(squared) * (V(1.0) / squared);
+}
+/// The value (not zero), its norm made `length`.
+template <class V>
+GALET_INLINE V with_norm(V length, const V& value) {
+  return select(value < V(0.0), -length, length);
 }
 template <class V>
-GALET_INLINE V norm(const Space<V>& value) {
-  return sqrt(squared(value));
+GALET_INLINE Space<V> with_norm(V length, const Space<V>& value) {
+  return share(length, squared(value)) * value;
+}
+/// The value, its norm made `most` where it is larger.
+template <class V>
+GALET_INLINE V shortened(V most, const V& value) {
+  return max(min(value, most), -most);
+}
+template <class V>
+GALET_INLINE Space<V> shortened(V most, const Space<V>& value) {
+  return min(share(most, squared(value)), V(1.0)) * value;  // no number leaves the zero vector
 }
 
 /// What sliding makes of a trial force beyond the limit: the force, and the stored elongation. `length` of the result
@@ -59,27 +74,32 @@ struct Slide {
 };
 
 template <Kernel K, class V, class Value>
-GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial, V trial_squared, const Value& rate,
+GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial, const Value& rate,
                                    const Value& stored, V bounded_viscosity) {
   const V k = law.stiffness, step = law.half_before + law.half_after, inverse = V(1.0) / k;
   Slide<V, Value> to;
-  to.force = law.limit / sqrt(trial_squared) * trial;
+  to.force = with_norm(law.limit, trial);
   // Where the limit has fallen by more than a third in one step the midpoint rule resolves nothing: the spring first
   // falls with it. (Not one with a dashpot in series with the slider: it outlives the limit for a while.)
-  const V longest = inverse * law.limit, length = norm(stored);
-  auto fallen = V(1.5) * longest < length;
+  const V longest = inverse * law.limit, length_squared = squared(stored);
+  auto fallen = V(2.25) * longest * longest < length_squared;
   if (K.general) fallen = without(fallen, V(0.0) < bounded_viscosity);
-  const Value start = select(fallen, longest / length * stored, stored);
-  const V modulus = k * law.half_before + bounded_viscosity;
-  const auto resolved = V(0.0) < modulus;                                        // not at the very start
-  const Value flow = only(resolved, V(1.0) / modulus * (to.force - k * start));  // dq/dt
+  Value start = stored;
+  if (__builtin_expect(any(fallen), 0)) start = select(fallen, with_norm(longest, stored), stored);
+  const auto resolved = V(0.0) < law.half_before;  // not at the very start
+  // dq/dt from K (start + dt/2 dq/dt) + alpha dq/dt = F
+  Value flow;
+  if (K.general)
+    flow = V(1.0) / madd(k, law.half_before, bounded_viscosity) * (to.force - k * start);
+  else
+    flow = V(1.0) / law.half_before * (inverse * to.force - start);
+  flow = only(resolved, flow);
   const Value free = select(resolved, start + step * flow, inverse * to.force);
   V most = inverse * law.limit_ahead;
   // While K falls elongations are kept: the one allowed is that of the softer spring.
   if (K.general || K.hertz) most = most / law.softening;
-  if (K.general) most = select(V(0.0) < bounded_viscosity, max(most, length), most);
-  const V shortening = min(most / norm(free), V(1.0));  // 0 / 0 leaves the zero spring
-  to.stored = shortening * free;
+  if (K.general) most = select(V(0.0) < bounded_viscosity, max(most, sqrt(length_squared)), most);
+  to.stored = shortened(most, free);
   if (K.account) {
     to.viscous = bounded_viscosity * squared(flow);
     to.plastic = dot(to.force, rate - flow) +
@@ -105,7 +125,7 @@ GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& l
   const Value sticking = K.general && !law.total ? madd(law.viscosity, rate, force) : force;
   if (K.account) losses.viscous += only(without(touching, slides), law.viscosity * squared(rate));
   if (!any(slides)) return sticking;
-  const Slide<V, Value> to = slide<K>(law, force, trial, rate, before, bounded_viscosity);
+  const Slide<V, Value> to = slide<K>(law, force, rate, before, bounded_viscosity);
   stored = select(slides, to.stored, stored);
   if (K.account) losses.viscous += only(slides, to.viscous), losses.plastic += only(slides, to.plastic);
   return select(slides, to.force, sticking);
