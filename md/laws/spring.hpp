@@ -86,14 +86,10 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial
   if (K.general) fallen = without(fallen, V(0.0) < bounded_viscosity);
   Value start = stored;
   if (__builtin_expect(any(fallen), 0)) start = select(fallen, with_norm(longest, stored), stored);
-  const auto resolved = V(0.0) < law.half_before;  // not at the very start
   // dq/dt from K (start + dt/2 dq/dt) + alpha dq/dt = F
-  Value flow;
-  if (K.general)
-    flow = V(1.0) / madd(k, law.half_before, bounded_viscosity) * (to.force - k * start);
-  else
-    flow = V(1.0) / law.half_before * (inverse * to.force - start);
-  flow = only(resolved, flow);
+  const V delay = K.general ? madd(inverse, bounded_viscosity, law.half_before) : law.half_before;
+  const auto resolved = V(0.0) < delay;  // not at the very start
+  const Value flow = only(resolved, V(1.0) / delay * (inverse * to.force - start));
   const Value free = select(resolved, start + step * flow, inverse * to.force);
   V most = inverse * law.limit_ahead;
   // While K falls elongations are kept: the one allowed is that of the softer spring.
