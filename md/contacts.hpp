@@ -41,7 +41,7 @@ class Contacts {
   bool varying_stiffness = false;  ///< whether rows remember their stiffness
 
   std::size_t size() const { return rows_; }
-  std::size_t block_count() const { return blocks_.size() - 1; }
+  std::size_t block_count() const { return blocks_.size(); }
   RowBlock* blocks() { return blocks_.data(); }
   double* columns() { return columns_.data()->value; }
   const RowConstants* constants() const { return constants_.data(); }
@@ -220,10 +220,10 @@ class Contacts {
     const PairColumns<D>& pairs = list.pairs();
     if (static_cast<std::size_t>(grains) > most_grains(Y)) throw RunError("too many grains for one sample of md");
     rows_ = pairs.size();
-    const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;  // and one more that only fills up
+    const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;
     RowBlock empty{};
     for (int k = 0; k < block_rows; ++k) empty.i[k] = record_at(grains), empty.j[k] = record_at(grains + 1);
-    refill(blocks_, blocks + 1, empty);
+    refill(blocks_, blocks, empty);
     refill(columns_, std::max<std::size_t>(1, blocks * C::count), Line{});
     refill(out_, (blocks + 1) * out_size(Y), Line{});  // the last block's rows stay zero
     plane_rows_.clear();
