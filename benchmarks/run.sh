@@ -9,6 +9,7 @@
 #   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains (about five minutes, 3 GB; --quick: to 64000, half a minute)
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
+#   cd_runs          whole runs of cd: time per step and contact, share of the solver, steps that missed
 #   cd_piles         the contact solver on packings under gravity, 400 to 50000 contacts, and on pile3d where GALET_FCLIB holds it
 #   cd_compliance    deflections of a packing under a stress increment in both engines, kappa = 1e3 to 1e6, and their cost
 #   cd_cell_inertia  plane shear with the cell's inertia a tenth to ten times the default, both engines
@@ -32,7 +33,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -62,6 +63,7 @@ for name in "${names[@]}"; do
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
     cd_compliance) "$bin/benchmarks/cd_compliance" | tee "$out/cd_compliance.csv" ;;
+    cd_runs) "$bin/benchmarks/cd_runs" | tee "$out/cd_runs.csv" ;;
     cd_cell_inertia) "$bin/benchmarks/cd_cell_inertia" "$out/cd_cell_inertia" | tee "$out/cd_cell_inertia.csv" ;;
     cd_piles)
       pile=${GALET_FCLIB:+$GALET_FCLIB/pile3d.geo}

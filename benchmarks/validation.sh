@@ -150,6 +150,17 @@ END
   [ ! -f "$results/cd_piles/pile3d.csv" ] || csv_table "$results/cd_piles/pile3d.csv"
   measured_on cd_piles
 fi
+if [ -f "$results/cd_runs/cd_runs.csv" ]; then
+  cat <<'END'
+## Contact solver in whole runs
+
+2000 spheres that settle on a floor (first and second half of the time) and 1000 disks in plane shear at I = 0.01. Every step is solved to the
+tolerance (relative error of the impulses) or counts as missed.
+
+END
+  csv_table "$results/cd_runs/cd_runs.csv"
+  measured_on cd_runs
+fi
 if [ -f "$results/neighbour_sizes/neighbour_sizes.csv" ]; then
   cat <<'END'
 ## Neighbour lists of unlike grains
