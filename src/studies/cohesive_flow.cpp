@@ -12,7 +12,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::cohesive_flow {
 
 namespace {
 
@@ -105,7 +105,7 @@ StudyRun cohesive_run(EngineKind engine, bool quick, double friction, double eta
 
 }  // namespace
 
-std::vector<StudyRun> cohesive_flow_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> numbers =
       quick ? std::vector{0.0, slight, weak, 50.0} : std::vector{0.0, 0.5, 1.0, slight, 5.0, weak, 20.0, 50.0, 80.0};
@@ -120,7 +120,7 @@ std::vector<StudyRun> cohesive_flow_plan(StudySize size) {
   return runs;
 }
 
-StudyReport cohesive_flow_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) report_engine(report, rows, engine);
   for (const double eta : values_of(rows, "eta")) {
@@ -135,4 +135,4 @@ StudyReport cohesive_flow_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::cohesive_flow

@@ -10,7 +10,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::compression {
 
 namespace {
 
@@ -65,7 +65,7 @@ Figure level_figure(const std::vector<StudyRow>& rows, Observable observable, co
 
 }  // namespace
 
-std::vector<StudyRun> compression_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> levels =
       quick ? std::vector{8400.0, last_level} : std::vector{18100.0, 8400.0, 3900.0, last_level, 1000.0};
@@ -89,7 +89,7 @@ std::vector<StudyRun> compression_plan(StudySize size) {
   return runs;
 }
 
-StudyReport compression_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const char state : states) report_state(report, rows, state);
   report.figures.push_back({"z_star", level_figure(rows, Observable::z_star, "z*")});
@@ -101,4 +101,4 @@ StudyReport compression_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::compression

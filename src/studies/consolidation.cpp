@@ -12,7 +12,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::consolidation {
 
 namespace {
 
@@ -131,7 +131,7 @@ void report_engine(StudyReport& report, const std::vector<StudyRow>& rows, Engin
 
 }  // namespace
 
-std::vector<StudyRun> consolidation_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   std::vector<StudyRun> runs;
   for (const EngineKind engine : engines)
@@ -146,7 +146,7 @@ std::vector<StudyRun> consolidation_plan(StudySize size) {
   return runs;
 }
 
-StudyReport consolidation_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : engines) report_engine(report, rows, engine);
   Figure figure{"Consolidation of cohesive disks", "reduced pressure P*", "1 / Phi", true, false, {}};
@@ -171,4 +171,4 @@ StudyReport consolidation_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::consolidation

@@ -10,7 +10,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::critical_state {
 
 namespace {
 
@@ -130,7 +130,7 @@ StudyRun critical_run(EngineKind engine, int dimension, double friction, double 
 
 }  // namespace
 
-std::vector<StudyRun> critical_state_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   std::vector<StudyRun> runs;
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
@@ -145,7 +145,7 @@ std::vector<StudyRun> critical_state_plan(StudySize size) {
   return runs;
 }
 
-StudyReport critical_state_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
     report_2d(report, rows, engine);
@@ -161,4 +161,4 @@ StudyReport critical_state_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::critical_state

@@ -10,7 +10,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::flow_friction {
 
 namespace {
 
@@ -62,7 +62,7 @@ Figure friction_figure(const std::vector<StudyRow>& rows, Observable observable)
 
 }  // namespace
 
-std::vector<StudyRun> flow_friction_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> frictions =
       quick ? std::vector{0.0, 0.1, 0.4, 0.8} : std::vector{0.0, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8};
@@ -89,7 +89,7 @@ std::vector<StudyRun> flow_friction_plan(StudySize size) {
   return runs;
 }
 
-StudyReport flow_friction_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : engines) report_engine(report, rows, engine);
   report.figures.push_back({"mu_star", friction_figure(rows, Observable::mu_star)});
@@ -97,4 +97,4 @@ StudyReport flow_friction_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::flow_friction

@@ -11,7 +11,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::flow_kappa {
 
 namespace {
 
@@ -99,7 +99,7 @@ Figure regime_figure(const std::vector<StudyRow>& rows) {
 
 }  // namespace
 
-std::vector<StudyRun> flow_kappa_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> states = quick ? std::vector{0.1} : std::vector{0.01, 0.03, 0.1, 0.2};
   std::vector<double> levels = {softest, 200, 1e3, 1e4, 1e5};
@@ -130,7 +130,7 @@ std::vector<StudyRun> flow_kappa_plan(StudySize size) {
   return runs;
 }
 
-StudyReport flow_kappa_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const double state : values_of(rows, "I")) report_state(report, rows, state);
   report.figures.push_back({"mu_star", level_figure(rows, Observable::mu_star)});
@@ -139,4 +139,4 @@ StudyReport flow_kappa_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::flow_kappa

@@ -12,7 +12,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::flow_law {
 
 namespace {
 
@@ -82,7 +82,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, cons
 
 }  // namespace
 
-std::vector<StudyRun> flow_law_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> states = quick ? std::vector{0.01, 0.02, 0.05, 0.1, 0.2, 0.3}
                                            : std::vector{1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3};
@@ -103,7 +103,7 @@ std::vector<StudyRun> flow_law_plan(StudySize size) {
   return runs;
 }
 
-StudyReport flow_law_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
     std::vector<const StudyRow*> steady;
@@ -149,4 +149,4 @@ StudyReport flow_law_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::flow_law

@@ -10,7 +10,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::flow_restitution {
 
 namespace {
 
@@ -70,7 +70,7 @@ Figure restitution_figure(const std::vector<StudyRow>& rows, double friction, Ob
 
 }  // namespace
 
-std::vector<StudyRun> flow_restitution_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   const std::vector<double> restitutions = quick ? std::vector{0.1, 0.9} : std::vector{0.1, 0.3, 0.5, 0.7, 0.9};
   const std::vector<double> states = quick ? std::vector{0.03, 0.1, 0.3} : std::vector{0.01, 0.03, 0.06, 0.1, 0.2, 0.3};
@@ -98,7 +98,7 @@ std::vector<StudyRun> flow_restitution_plan(StudySize size) {
   return runs;
 }
 
-StudyReport flow_restitution_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : engines) report_engine(report, rows, engine);
   for (const double friction : {0.0, 0.4}) {
@@ -109,4 +109,4 @@ StudyReport flow_restitution_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::flow_restitution

@@ -5,24 +5,42 @@
 
 namespace galet {
 
-std::vector<StudyRun> flow_law_plan(StudySize size);
-StudyReport flow_law_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> flow_friction_plan(StudySize size);
-StudyReport flow_friction_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> flow_restitution_plan(StudySize size);
-StudyReport flow_restitution_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> flow_kappa_plan(StudySize size);
-StudyReport flow_kappa_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> compression_plan(StudySize size);
-StudyReport compression_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> cohesive_flow_plan(StudySize size);
-StudyReport cohesive_flow_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> critical_state_plan(StudySize size);
-StudyReport critical_state_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> triaxial_plan(StudySize size);
-StudyReport triaxial_report(const std::vector<StudyRow>& rows);
-std::vector<StudyRun> consolidation_plan(StudySize size);
-StudyReport consolidation_report(const std::vector<StudyRow>& rows);
+namespace flow_law {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace flow_law
+namespace flow_friction {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace flow_friction
+namespace flow_restitution {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace flow_restitution
+namespace flow_kappa {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace flow_kappa
+namespace compression {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace compression
+namespace cohesive_flow {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace cohesive_flow
+namespace critical_state {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace critical_state
+namespace triaxial {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace triaxial
+namespace consolidation {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace consolidation
 
 inline constexpr Study flow_law_study{
     "flow-law",
@@ -32,16 +50,16 @@ inline constexpr Study flow_law_study{
     "constant "
     "pressure, and once at the volume that the pressure gave. Published runs: rough walls.",
     Observable::mu_star,
-    flow_law_plan,
-    flow_law_report};
+    flow_law::plan,
+    flow_law::report};
 
 inline constexpr Study flow_friction_study{"flow-friction",
                                            "Linear flow laws against the friction between grains",
                                            "Roux and Chevoir 2010, sec. 3.2 (da Cruz et al. 2005)",
                                            "as flow-law, with mu = 0 to 0.8; lines fitted over 0.01 <= I <= 0.2",
                                            Observable::mu_star,
-                                           flow_friction_plan,
-                                           flow_friction_report};
+                                           flow_friction::plan,
+                                           flow_friction::report};
 
 inline constexpr Study flow_restitution_study{
     "flow-restitution",
@@ -49,8 +67,8 @@ inline constexpr Study flow_restitution_study{
     "Roux and Chevoir 2010, sec. 3.2 (da Cruz 2004)",
     "as flow-law, with e = 0.1 to 0.9, mu = 0 and 0.4; effects are ratios - 1 between the ends of the range",
     Observable::mu_star,
-    flow_restitution_plan,
-    flow_restitution_report};
+    flow_restitution::plan,
+    flow_restitution::report};
 
 inline constexpr Study flow_kappa_study{"flow-kappa",
                                         "Effect of the stiffness of contacts, and the rigid limit",
@@ -59,8 +77,8 @@ inline constexpr Study flow_kappa_study{"flow-kappa",
                                         "compliance in cd, and rigid grains; contacts "
                                         "are without attraction (viscous_convention = \"total\") in all of them",
                                         Observable::mu_star,
-                                        flow_kappa_plan,
-                                        flow_kappa_report};
+                                        flow_kappa::plan,
+                                        flow_kappa::report};
 
 inline constexpr Study compression_study{
     "compression",
@@ -70,8 +88,8 @@ inline constexpr Study compression_study{
     "assembly of A; "
     "three packings of each; rigid grains (cd) assembled the same way",
     Observable::z_star,
-    compression_plan,
-    compression_report};
+    compression::plan,
+    compression::report};
 
 inline constexpr Study cohesive_flow_study{
     "cohesive-flow",
@@ -79,8 +97,8 @@ inline constexpr Study cohesive_flow_study{
     "Roux and Chevoir 2010, sec. 3.4 (Rognon et al. 2006, 2008)",
     "as flow-law, kappa = 1e5, attraction sqrt(4 K_N F0 h) in md, constant attraction F0 between rigid grains in cd",
     Observable::mu_star,
-    cohesive_flow_plan,
-    cohesive_flow_report};
+    cohesive_flow::plan,
+    cohesive_flow::report};
 
 inline constexpr Study critical_state_study{
     "critical-state",
@@ -90,8 +108,8 @@ inline constexpr Study critical_state_study{
     "gas, dense "
     "ones from frictionless shear",
     Observable::mu_star,
-    critical_state_plan,
-    critical_state_report};
+    critical_state::plan,
+    critical_state::report};
 
 inline constexpr Study triaxial_study{
     "triaxial",
@@ -101,8 +119,8 @@ inline constexpr Study triaxial_study{
     "then given "
     "mu, state C; axial strain at I = 5e-4 (quick size: 2e-3); rigid grains from state A beside them",
     Observable::solid_fraction,
-    triaxial_plan,
-    triaxial_report};
+    triaxial::plan,
+    triaxial::report};
 
 inline constexpr Study consolidation_study{
     "consolidation",
@@ -112,7 +130,7 @@ inline constexpr Study consolidation_study{
     "/ F0 = 1e5; "
     "a gas of solid fraction 0.4 aggregates, then P* = P d / F0 goes from 0.01 to 10 in steps and back",
     Observable::solid_fraction,
-    consolidation_plan,
-    consolidation_report};
+    consolidation::plan,
+    consolidation::report};
 
 }  // namespace galet

@@ -15,7 +15,7 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
-namespace galet {
+namespace galet::triaxial {
 
 namespace {
 
@@ -155,7 +155,7 @@ Figure curve_figure(const std::vector<StudyRow>& rows, bool deviator) {
 
 }  // namespace
 
-std::vector<StudyRun> triaxial_plan(StudySize size) {
+std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   std::vector<StudyRun> runs;
   const auto add = [&](EngineKind engine, char state, double friction, double level) {
@@ -185,7 +185,7 @@ std::vector<StudyRun> triaxial_plan(StudySize size) {
   return runs;
 }
 
-StudyReport triaxial_report(const std::vector<StudyRow>& rows) {
+StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   report_peaks(report, rows);
   report_types(report, rows);
@@ -197,4 +197,4 @@ StudyReport triaxial_report(const std::vector<StudyRow>& rows) {
   return report;
 }
 
-}  // namespace galet
+}  // namespace galet::triaxial
