@@ -39,7 +39,7 @@ constexpr double look_interval = 0.1;
 constexpr int layers = 34;
 
 struct Flow {
-  Estimate inertial, mu, fraction, normal;
+  Estimate inertial = {}, mu = {}, fraction = {}, normal = {};
   int grains = 0;
   double time = 0, seconds = 0;
 };
