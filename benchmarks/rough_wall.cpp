@@ -3,15 +3,14 @@
 //
 //   rough_wall SCENE OUT      SCENE: scenes/rough_wall_shear_2d.toml
 //
-// 1000 disks (+-20 %, mu = 0.4, e = 0.1, kappa = 1e4 in md), walls 32 d apart, V = 3 sqrt(P/m) d. Bulk: the middle half
-// between the walls, whose layers are 8 d and more from them. There I is the least-squares slope of v_x over y times
-// sqrt(m / sigma_yy), mu* = sigma_xy / sigma_yy and Phi, all of the layers of common/measure/profile.hpp. The cell has
-// as many grains, at that I and at sigma_yy = P. After a time of 300 (three times that in which the profile between the
-// walls settles, H^2 rho / (pi^2 d(tau)/d(rate)), about 100) means over 900, of 600 in the cell (after 100), with block
-// errors (common/measure/block_average.hpp).
-// Writes OUT/flows.csv, and OUT/verdict.csv: walls less cell, its standard error (the error of I counts by the slopes
-// 1.1 of mu* and 0.37 of Phi), and whether they agree within two of these. What it can't tell: the flow next to the
-// walls, and other I.
+// 1000 disks (+-20 %, mu = 0.4, e = 0.1, kappa = 1000 in md), walls 32 d apart, V = 3 sqrt(P/m) d. Bulk: the middle
+// half between the walls, whose layers are 8 d and more from them. There I is the least-squares slope of v_x over y
+// times sqrt(m / sigma_yy), mu* = sigma_xy / sigma_yy and Phi, all of the layers of common/measure/profile.hpp. The
+// cell has as many grains, at that I and at sigma_yy = P. After a time of 300 (three times that in which the profile
+// between the walls settles, H^2 rho / (pi^2 d(tau)/d(rate)), about 100) means over 900, of 600 in the cell (after
+// 100), with block errors (common/measure/block_average.hpp). Writes OUT/flows.csv, and OUT/verdict.csv: walls less
+// cell, its standard error (the error of I counts by the slopes 1.1 of mu* and 0.37 of Phi), and whether they agree
+// within two of these. What it can't tell: the flow next to the walls, and other I.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -100,6 +99,7 @@ void run(Engine<2>& engine, double duration, const Look& look) {
 }
 
 Scene with_numerics(Scene scene) {
+  scene.material.stiffness_level = 1e3;
   scene.cd.dt = 0.02;
   scene.cd.tolerance = 1e-3;
   return scene;
