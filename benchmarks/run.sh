@@ -13,6 +13,7 @@
 #   cd_piles         the contact solver on packings under gravity, 400 to 50000 contacts, and on pile3d where GALET_FCLIB holds it
 #   cd_compliance    deflections of a packing under a stress increment in both engines, kappa = 1e3 to 1e6, and their cost
 #   cd_cell_inertia  plane shear with the cell's inertia a tenth to ten times the default, both engines
+#   rough_wall       plane shear between rough walls against the periodic cell at the same I, both engines (about eight minutes)
 #   hertz_compression  frictionless glass beads from 10 kPa on: Phi, z*, rattlers, z* against kappa (three packings)
 #   lammps_peer      the same packing and law in LAMMPS; skipped where it is not installed
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
@@ -33,7 +34,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -65,6 +66,7 @@ for name in "${names[@]}"; do
     cd_compliance) "$bin/benchmarks/cd_compliance" | tee "$out/cd_compliance.csv" ;;
     cd_runs) "$bin/benchmarks/cd_runs" | tee "$out/cd_runs.csv" ;;
     cd_cell_inertia) "$bin/benchmarks/cd_cell_inertia" "$out/cd_cell_inertia" | tee "$out/cd_cell_inertia.csv" ;;
+    rough_wall) "$bin/benchmarks/rough_wall" scenes/rough_wall_shear_2d.toml "$out" ;;
     cd_piles)
       pile=${GALET_FCLIB:+$GALET_FCLIB/pile3d.geo}
       if [ -n "$pile" ] && [ -f "$pile" ]; then "$bin/benchmarks/cd_piles" "$out" "$pile"; else "$bin/benchmarks/cd_piles" "$out"; fi ;;

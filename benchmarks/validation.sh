@@ -137,6 +137,19 @@ END
   printf '![mu* and Phi against the inertia of the cell](../benchmarks/results/cd_cell_inertia/cd_cell_inertia.svg)\n\n'
   measured_on cd_cell_inertia
 fi
+if [ -f "$results/rough_wall/flows.csv" ]; then
+  cat <<'END'
+## Rough walls against the periodic cell
+
+`benchmarks/run.sh rough_wall`: plane shear of 1000 disks between rough walls, the upper one pressed by a force, and in the periodic cell at the I of
+the middle half between the walls; there the walls order no layers. Means with block errors; `seconds`: processor time. Then walls less cell, with the
+standard error (that of I included), and whether they agree within two of these.
+
+END
+  csv_table "$results/rough_wall/flows.csv"
+  csv_table "$results/rough_wall/verdict.csv"
+  measured_on rough_wall
+fi
 if [ -f "$results/cd_piles/growth.csv" ]; then
   cat <<'END'
 ## Contact solver on packings under gravity

@@ -263,50 +263,79 @@ class Assembly {
   static void fill_turning_block(const Bodies<Y>& bodies, const ContactFrame<D>& frame,
                                  const std::array<int, 2>& grains, std::size_t k, Problem<Y>& problem) {
     if constexpr (Y.friction) {
-      TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+      TurningContact<Y>& bent = problem.bent[k - problem.first_turning];
       bent = {};
       bent.branch = frame.branch + bodies.arm[grains[0]];
       if (grains[1] < bodies.grains()) bent.branch -= bodies.arm[grains[1]];
+      bent.lever_i = lever_of(bodies, frame, grains[0], 1);
+      bent.lever_j = lever_of(bodies, frame, grains[1], -1);
       Mat<D> directions;
       directions.col(0) = frame.normal;
       directions.template rightCols<D - 1>() = across<D>(frame.normal);
-      for (const int side : {0, 1}) {
-        const int body = side == 0 ? problem.i[k] : problem.j[k];
-        const bool grain = grains[side] < bodies.grains();
-        Vec<D>& lever = side == 0 ? bent.lever_i : bent.lever_j;
-        if (grain)
-          lever = bodies.arm[grains[side]] +
-                  (side == 0 ? 1 : -1) * frame.stretch * bodies.radius[grains[side]] * frame.normal;
-        else
-          lever = -surface_arm(bodies, grains[side]) * frame.normal;
-        Mat<D> mobility = Mat<D>::Zero();
-        if (body < problem.grains)
-          mobility.diagonal().setConstant(problem.inverse_mass[body]);
-        else if (problem.mobile(body))
-          mobility = problem.mobility[body - problem.grains];
-        for (int a = 0; a < D; ++a)
-          for (int b = 0; b < D; ++b) {
-            bent.w(a, b) += directions.col(a).dot(mobility * directions.col(b));
-            const Spin<D> moment_a = cross(lever, Vec<D>(directions.col(a))),
-                          moment_b = cross(lever, Vec<D>(directions.col(b)));
-            if (body < problem.grains)
-              bent.w(a, b) += problem.inverse_inertia[body] * dot(moment_a, moment_b);
-            else if (problem.spun(body))
-              bent.w(a, b) += dot(moment_a, Spin<D>(problem.turning[body - problem.grains] * moment_b));
-          }
-      }
+      const BlockSide own = block_side(directions, bent.lever_i), other = block_side(directions, bent.lever_j);
+      const int i = problem.i[k], j = problem.j[k];
+      if (i == j)  // a body that meets its own image
+        add_side({other.force - own.force, other.torque - own.torque}, i, problem, bent.w);
+      else
+        add_side(own, i, problem, bent.w), add_side(other, j, problem, bent.w);
       for (const HubMode<D>& mode : problem.hub) {
         const Vec<D> answer = directions.transpose() * (mode.direction * bent.branch);
-        bent.w += mode.inverse_inertia * answer * answer.transpose();
+        bent.w.template topLeftCorner<D, D>() += mode.inverse_inertia * answer * answer.transpose();
       }
-      const double w_n = bent.w(0, 0), w_t = (bent.w.trace() - w_n) / (D - 1);
+      const double w_n = bent.w(0, 0), w_t = bent.w.diagonal().template segment<D - 1>(1).mean();
       // A normal through a fixed axis: what is left is rounding of the lever.
       const bool held = !(w_n > 1e-14 * w_t);
       problem.wn[k] = held ? 0 : w_n;
       problem.inverse_wn[k] = held ? 0 : 1 / w_n;
       problem.inverse_wt[k] = 1 / w_t;
       problem.arm_i[k] = problem.arm_j[k] = 0;
+      if constexpr (Y.rolling) {
+        problem.wr[k] = bent.w.diagonal().template segment<D - 1>(D).mean();
+        problem.wp[k] = D == 3 ? bent.w(block_size(Y) - 1, block_size(Y) - 1) : problem.wr[k];
+        problem.coupling[k] = 0;
+      }
     }
+  }
+
+  /// From the centre of the body to the contact point; `side` 1: the normal leaves that member, -1: it points there.
+  static Vec<D> lever_of(const Bodies<Y>& bodies, const ContactFrame<D>& frame, int member, double side) {
+    if (member >= bodies.grains()) return -surface_arm(bodies, member) * frame.normal;
+    return bodies.arm[member] + side * frame.stretch * bodies.radius[member] * frame.normal;
+  }
+
+  /// What unit impulses of a contact give to one of its bodies, column by column of the block: a force through the
+  /// centre and a torque.
+  struct BlockSide {
+    static constexpr int spins = D == 2 ? 1 : 3;
+    Eigen::Matrix<double, D, block_size(Y)> force = Eigen::Matrix<double, D, block_size(Y)>::Zero();
+    Eigen::Matrix<double, spins, block_size(Y)> torque = Eigen::Matrix<double, spins, block_size(Y)>::Zero();
+  };
+  static BlockSide block_side(const Mat<D>& directions, const Vec<D>& lever) {
+    BlockSide side;
+    side.force.template leftCols<D>() = directions;
+    for (int a = 0; a < D; ++a) {
+      const Spin<D> moment = cross(lever, Vec<D>(directions.col(a)));
+      if constexpr (D == 2)
+        side.torque(0, a) = moment;
+      else
+        side.torque.col(a) = moment;
+    }
+    if constexpr (Y.rolling && D == 2) side.torque(0, 2) = 1;
+    if constexpr (Y.rolling && D == 3) {
+      side.torque.template middleCols<2>(3) = directions.template rightCols<2>();
+      side.torque.col(5) = directions.col(0);
+    }
+    return side;
+  }
+  static void add_side(const BlockSide& side, int body, const Problem<Y>& problem,
+                       typename TurningContact<Y>::Block& w) {
+    if (body < problem.grains) {
+      w += problem.inverse_mass[body] * side.force.transpose() * side.force;
+      w += problem.inverse_inertia[body] * side.torque.transpose() * side.torque;
+      return;
+    }
+    if (problem.mobile(body)) w += side.force.transpose() * problem.mobility[body - problem.grains] * side.force;
+    if (problem.spun(body)) w += side.torque.transpose() * (problem.turning[body - problem.grains] * side.torque);
   }
 
   /// Tangential motions rebound: lag = e_T times the motion at the start of the step.

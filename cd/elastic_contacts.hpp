@@ -48,7 +48,9 @@ class ElasticContacts {
         if (problem.turns(k)) {
           auto diagonal = problem.bent[k - problem.first_turning].w.diagonal();
           diagonal[0] += c.normal;
-          diagonal.template tail<D - 1>().array() += c.tangential;
+          diagonal.template segment<D - 1>(1).array() += c.tangential;
+          if constexpr (Y.rolling) diagonal.template segment<D - 1>(D).array() += c.rolling;
+          if constexpr (Y.rolling && D == 3) diagonal[5] += c.pivoting;
         }
         Components<Y> parts = components<Y>(problem.normal[k], before[row]);
         const double kept = kept_elastic(law, -gap, deflection_[row]);

@@ -23,9 +23,9 @@
 // symmetric matrix: n (x) n / M of a plane that is free along its normal, diagonal for a rigid body. Grains that are
 // glued to a rigid body are no bodies of the problem: their contacts are the rigid body's. Where one turns, its
 // contacts have a lever of their own, from its centre to the contact point, and their block of W is full:
-//   u = v_j + w_j x lever_j - v_i - w_i x lever_i + L b,   dw = A (lever x p),  A the body's rotational mobility
-// They come after the other contacts (`first_turning`), so that those keep their closed form and their cost. They have
-// no rolling resistance.
+//   u = v_j + w_j x lever_j - v_i - w_i x lever_i + L b,   dw = A (lever x p + gamma),  A the body's rotational
+//   mobility
+// They come after the other contacts (`first_turning`), so that those keep their closed form and their cost.
 //
 // Contacts are stored grouped by colour (common/graph/colouring.hpp), those of disks and spheres first. Units: those of
 // the scene; impulses are force * time, offset is a velocity. Signs: core/conventions.hpp.
@@ -86,13 +86,15 @@ struct HubMode {
   double inverse_inertia;  ///< 1 / (mass * length^2)
 };
 
-/// A contact of a body that turns. W: the block of the Delassus operator in the frame (n, t1, t2) of across().
-/// branch: from the centre of body i to that of body j.
-template <int D>
+/// A contact of a body that turns. W: the block of the Delassus operator by the contact's own directions
+/// (laws/turning_contact.hpp). branch: from the centre of body i to that of body j.
+template <Layout Y>
 struct TurningContact {
+  static constexpr int D = Y.dim;
+  using Block = Eigen::Matrix<double, block_size(Y), block_size(Y), Eigen::RowMajor>;
   Vec<D> branch = Vec<D>::Zero();
   Vec<D> lever_i = Vec<D>::Zero(), lever_j = Vec<D>::Zero();
-  Eigen::Matrix<double, D, D, Eigen::RowMajor> w = Eigen::Matrix<double, D, D, Eigen::RowMajor>::Zero();
+  Block w = Block::Zero();
 };
 
 /// Directions across a normal, by column: (-n_y, n_x); in 3D any one and then n x t1.
@@ -137,7 +139,7 @@ struct Problem {
   Column<Reaction<Y>, Y.friction> lag;      ///< of the tangential motion; its normal part is not used
   Column<Compliance> compliance;
   std::size_t first_turning = SIZE_MAX;        ///< contacts from here on are those of bodies that turn
-  Column<TurningContact<D>, Y.friction> bent;  ///< of contact first_turning + k
+  Column<TurningContact<Y>, Y.friction> bent;  ///< of contact first_turning + k
   std::vector<int> group;                      ///< contacts group[c] .. group[c + 1] have one colour
   std::array<int, 2> shared = {-1, -1};        ///< groups that are no colour: their contacts share bodies (-1: none)
 
@@ -199,7 +201,7 @@ inline Vec<Y.dim> relative_velocity(const Problem<Y>& problem, const Iterate<Y>&
   const Vec<D>& n = problem.normal[k];
   if constexpr (Y.friction && MayTurn) {
     if (problem.turns(k)) [[unlikely]] {
-      const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+      const TurningContact<Y>& bent = problem.bent[k - problem.first_turning];
       return iterate.velocity[j] - iterate.velocity[i] + gradient * bent.branch + cross(iterate.spin[j], bent.lever_j) -
              cross(iterate.spin[i], bent.lever_i);
     }
@@ -346,18 +348,21 @@ inline void push(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const
     iterate.velocity[body] += problem.mobility[body - problem.grains] * p;
 }
 
+/// Adds the torque impulse gamma to the spin of a body.
+template <Layout Y>
+inline void twist(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const Spin<Y.dim>& gamma) {
+  if (body < problem.grains)
+    iterate.spin[body] += problem.inverse_inertia[body] * gamma;
+  else if (problem.spun(body))
+    iterate.spin[body] += problem.turning[body - problem.grains] * gamma;
+}
+
 /// Adds the impulse p that acts at `lever` from the centre of a body to its velocity and spin.
 template <Layout Y>
 inline void push_at(const Problem<Y>& problem, Iterate<Y>& iterate, int body, const Vec<Y.dim>& lever,
                     const Vec<Y.dim>& p) {
   push(problem, iterate, body, p);
-  if constexpr (Y.friction) {
-    const Spin<Y.dim> turn = cross(lever, p);
-    if (body < problem.grains)
-      iterate.spin[body] += problem.inverse_inertia[body] * turn;
-    else if (problem.spun(body))
-      iterate.spin[body] += problem.turning[body - problem.grains] * turn;
-  }
+  if constexpr (Y.friction) twist(problem, iterate, body, cross(lever, p));
 }
 
 /// Adds the impulse p (on j, -p on i) of contact k to the velocities of its bodies; the hub is the caller's.
@@ -366,7 +371,7 @@ inline void add_impulse(const Problem<Y>& problem, Iterate<Y>& iterate, std::siz
   const int i = problem.i[k], j = problem.j[k];
   if constexpr (Y.friction && MayTurn) {
     if (problem.turns(k)) [[unlikely]] {
-      const TurningContact<Y.dim>& bent = problem.bent[k - problem.first_turning];
+      const TurningContact<Y>& bent = problem.bent[k - problem.first_turning];
       push_at(problem, iterate, i, bent.lever_i, Vec<Y.dim>(-p));
       return push_at(problem, iterate, j, bent.lever_j, p);
     }
@@ -381,9 +386,15 @@ inline void add_impulse(const Problem<Y>& problem, Iterate<Y>& iterate, std::siz
 }
 
 /// Adds the torque impulse gamma (on j, -gamma on i) of contact k to the spins of its bodies.
-template <Layout Y>
+template <Layout Y, bool MayTurn = true>
 inline void add_torque(const Problem<Y>& problem, Iterate<Y>& iterate, std::size_t k, const Spin<Y.dim>& gamma) {
   static_assert(Y.rolling, "only layouts with rolling have torques");
+  if constexpr (MayTurn) {
+    if (problem.turns(k)) [[unlikely]] {
+      twist(problem, iterate, problem.i[k], Spin<Y.dim>(-gamma));
+      return twist(problem, iterate, problem.j[k], gamma);
+    }
+  }
   iterate.spin[problem.i[k]] -= problem.inverse_inertia[problem.i[k]] * gamma;
   iterate.spin[problem.j[k]] += problem.inverse_inertia[problem.j[k]] * gamma;
 }
@@ -394,7 +405,7 @@ inline void add_reaction(const Problem<Y>& problem, Iterate<Y>& iterate, std::si
                          Mat<Y.dim>& virial) {
   const Vec<Y.dim> p = impulse_vector<Y>(problem.normal[k], reaction);
   add_impulse<Y, MayTurn>(problem, iterate, k, p);
-  if constexpr (Y.rolling) add_torque(problem, iterate, k, torque_impulse<Y>(reaction));
+  if constexpr (Y.rolling) add_torque<Y, MayTurn>(problem, iterate, k, torque_impulse<Y>(reaction));
   virial += p * branch_of<Y, MayTurn>(problem, k).transpose();
 }
 

@@ -53,8 +53,6 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     if (compliant_ && !laws_.stiff)
       throw InputError("cd.compliance needs a stiffness: give material.stiffness_level or material.normal_stiffness");
     bodies_.start(scene, derived, sample);
-    if (Y.rolling && bodies_.rigid.any_turning)
-      throw InputError("a rigid body turns: cd has no rolling or pivoting resistance of such bodies");
     prepare_problem();
     skin_ = 0.15 * diameter_;
     update_neighbours();

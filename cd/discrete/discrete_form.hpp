@@ -82,7 +82,7 @@ class DiscreteForm {
       const int i = problem.i[k], j = problem.j[k];
       if (problem.turns(k)) {
         if constexpr (Y.friction) {
-          const TurningContact<D>& bent = problem.bent[k - problem.first_turning];
+          const TurningContact<Y>& bent = problem.bent[k - problem.first_turning];
           sides_[i].push_back({contact, jacobian(contact, -1, bent.lever_i)});
           sides_[j].push_back({contact, jacobian(contact, 1, bent.lever_j)});
         }

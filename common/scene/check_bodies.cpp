@@ -227,18 +227,6 @@ void check_company(Report& report) {
        {std::pair{scene.md.drag, "md.drag"}, std::pair{scene.md.acceleration_damping, "md.acceleration_damping"}})
     report.rule(value == 0, name, fmt::format("{} is refused with [[body]] entries: it acts on grains alone", name),
                 {"body"});
-  const auto rolls = [](double rolling, double pivoting) { return rolling > 0 || pivoting > 0; };
-  bool rolling = rolls(scene.material.rolling_friction, scene.material.pivoting_friction);
-  for (const OtherMaterial& other : scene.other_materials)
-    rolling = rolling || rolls(other.rolling_friction.value_or(0), other.pivoting_friction.value_or(0));
-  for (const MaterialPair& pair : scene.pairs)
-    rolling = rolling || rolls(pair.rolling_friction.value_or(0), pair.pivoting_friction.value_or(0));
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    report.rule(scene.engine != EngineKind::cd || !rolling || !turns(scene.bodies[k]), fmt::format("body[{}]", k),
-                fmt::format("body[{}] turns: cd has no rolling or pivoting resistance of such bodies; take engine = "
-                            "\"md\", or leave out the resistance",
-                            k),
-                {"engine", "material", "other_material", "material_pair"});
 }
 
 }  // namespace

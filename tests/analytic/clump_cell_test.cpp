@@ -70,8 +70,9 @@ TEST(ClumpsInACell, CollideAsInACellAtRest) {
 
 /// A gas of grains in a cell that is sheared and pressed, each grain free or glued to a body of its own.
 template <int D>
-std::unique_ptr<Engine<D>> single_grains(EngineKind kind, bool glued) {
+std::unique_ptr<Engine<D>> single_grains(EngineKind kind, bool glued, bool rolling) {
   Scene scene = sheared_scene<D>(0.5, 1);
+  if (rolling) resist_rolling(scene);
   Sample<D> sample = gas_sample<D>(D == 2 ? 5 : 3, D == 2 ? 0.5 : 0.35, 0.1, 91, 1);
   set_dt(scene, kind == EngineKind::md ? 2e-4 : 1e-3);
   scene.cd.tolerance = 1e-13;
@@ -93,9 +94,9 @@ std::unique_ptr<Engine<D>> single_grains(EngineKind kind, bool glued) {
 }
 
 template <int D>
-void check_single_grains(EngineKind kind) {
-  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D));
-  const auto grains = single_grains<D>(kind, false), bodies = single_grains<D>(kind, true);
+void check_single_grains(EngineKind kind, bool rolling) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance" : ""));
+  const auto grains = single_grains<D>(kind, false, rolling), bodies = single_grains<D>(kind, true, rolling);
   std::size_t contacts = 0;
   for (int look = 0; look < (D == 2 ? 300 : 160); ++look) {
     for (const auto& engine : {&grains, &bodies}) (*engine)->advance(kind == EngineKind::md ? 25 : 5);
@@ -112,7 +113,9 @@ void check_single_grains(EngineKind kind) {
 }
 
 TEST(ClumpsInACell, OfOneGrainMoveAsThatGrain) {
-  for (EngineKind kind : both_engines) check_single_grains<2>(kind), check_single_grains<3>(kind);
+  for (EngineKind kind : both_engines)
+    for (const bool rolling : {false, true})
+      check_single_grains<2>(kind, rolling), check_single_grains<3>(kind, rolling);
 }
 
 /// md: the work of the drives, with the stress from centre to centre of bodies, and what is dissipated change the

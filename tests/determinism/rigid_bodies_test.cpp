@@ -10,8 +10,9 @@ namespace {
 
 /// A gas of clumps that collides, with a torque on one of them and a rotor.
 template <int D>
-std::unique_ptr<Engine<D>> clump_run(EngineKind kind, int side, double stepping = 1) {
+std::unique_ptr<Engine<D>> clump_run(EngineKind kind, int side, bool rolling, double stepping = 1) {
   auto [scene, sample] = clump_gas<D>(side, 4, 71);
+  if (rolling) resist_rolling(scene);
   scene.bodies[0].torque.assign(D == 2 ? 1 : 3, 0.3);
   scene.bodies[1].free_rotation.clear();
   scene.bodies[1].free.clear();
@@ -21,13 +22,13 @@ std::unique_ptr<Engine<D>> clump_run(EngineKind kind, int side, double stepping 
 }
 
 template <int D>
-void check_threads(EngineKind kind) {
-  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D));
+void check_threads(EngineKind kind, bool rolling) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance" : ""));
   const ThreadCount restored;
   std::uint64_t expected = 0;
   for (int threads : {1, 2, 4}) {
     set_thread_count(threads);
-    const auto engine = clump_run<D>(kind, D == 2 ? 30 : 9, 2);
+    const auto engine = clump_run<D>(kind, D == 2 ? 30 : 9, rolling, 2);
     std::size_t contacts = 0;
     for (int look = 0; look < 5; ++look) {
       engine->advance(kind == EngineKind::md ? 200 : 12);
@@ -42,14 +43,16 @@ void check_threads(EngineKind kind) {
 }
 
 TEST(determinism, RigidBodies) {
-  for (EngineKind kind : both_engines) check_threads<2>(kind), check_threads<3>(kind);
+  for (EngineKind kind : both_engines)
+    for (const bool rolling : {false, true}) check_threads<2>(kind, rolling), check_threads<3>(kind, rolling);
 }
 
 template <int D>
-void check_restart(EngineKind kind) {
+void check_restart(EngineKind kind, bool rolling) {
   for (long steps : {1, 37, 301}) {
-    SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + ", " + std::to_string(steps) + " steps");
-    const auto start = [&] { return clump_run<D>(kind, D == 2 ? 5 : 3); };
+    SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance, " : ", ") +
+                 std::to_string(steps) + " steps");
+    const auto start = [&] { return clump_run<D>(kind, D == 2 ? 5 : 3, rolling); };
     const auto whole = start(), first = start(), second = start();
     whole->advance(2 * steps);
     first->advance(steps);
@@ -63,7 +66,8 @@ void check_restart(EngineKind kind) {
 }
 
 TEST(restart, RigidBodies) {
-  for (EngineKind kind : both_engines) check_restart<2>(kind), check_restart<3>(kind);
+  for (EngineKind kind : both_engines)
+    for (const bool rolling : {false, true}) check_restart<2>(kind, rolling), check_restart<3>(kind, rolling);
 }
 
 }  // namespace

@@ -10,9 +10,10 @@ namespace galet::test::rigid_bodies_test {
 namespace {
 
 template <int D>
-void check_momenta(EngineKind kind) {
-  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D));
+void check_momenta(EngineKind kind, bool rolling) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance" : ""));
   auto [scene, sample] = clump_gas<D>(D == 2 ? 4 : 2, 1, 81, false);
+  if (rolling) resist_rolling(scene);
   const Vec<D> origin = Vec<D>::Constant(20 + 1.6 * (D == 2 ? 4 : 2));
   for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b)
     for (int a = 0; a < D; ++a) scene.bodies[b].velocity[a] += origin[a] - sample.position[4 * b][a];
@@ -30,7 +31,8 @@ void check_momenta(EngineKind kind) {
 }
 
 TEST(RigidBodies, KeepMomentumAndAngularMomentum) {
-  for (EngineKind kind : both_engines) check_momenta<2>(kind), check_momenta<3>(kind);
+  for (EngineKind kind : both_engines)
+    for (const bool rolling : {false, true}) check_momenta<2>(kind, rolling), check_momenta<3>(kind, rolling);
 }
 
 /// Grains of a body keep their distances however often it turns.
@@ -90,9 +92,10 @@ TEST(RigidBodies, EnergyBudgetClosesMd) {
 }
 
 template <int D>
-void check_allocation(EngineKind kind) {
-  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D));
+void check_allocation(EngineKind kind, bool rolling) {
+  SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance" : ""));
   auto [scene, sample] = clump_gas<D>(D == 2 ? 5 : 3, 2, 84);
+  if (rolling) resist_rolling(scene);
   scene.material.restitution = 1;
   scene.cd.dt = 1e-2;
   const auto engine = make_engine<D>(kind, scene, sample);
@@ -103,7 +106,8 @@ void check_allocation(EngineKind kind) {
 }
 
 TEST(Allocation, NoneWithRigidBodies) {
-  for (EngineKind kind : both_engines) check_allocation<2>(kind), check_allocation<3>(kind);
+  for (EngineKind kind : both_engines)
+    for (const bool rolling : {false, true}) check_allocation<2>(kind, rolling), check_allocation<3>(kind, rolling);
 }
 
 }  // namespace

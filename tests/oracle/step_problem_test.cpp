@@ -135,27 +135,32 @@ Problem<Y> with_turning_body(Problem<Y> problem, std::uint64_t seed) {
     problem.j[k] = k == first + 3 ? problem.grains : body;
     const Vec<D>& n = problem.normal[k] = random_vector<D>(stream).normalized();
     problem.distance[k] = 1, problem.law[k] = 0, problem.arm_i[k] = problem.arm_j[k] = 0;
-    TurningContact<D>& bent = problem.bent[k - first];
+    TurningContact<Y>& bent = problem.bent[k - first];
     bent.lever_i = k == first + 3 ? random_vector<D>(stream) : Vec<D>(0.5 * n);
     bent.lever_j = k == first + 3 ? Vec<D>(Vec<D>::Zero()) : random_vector<D>(stream);
     problem.lag[k].setZero();
-    if (problem.compliant) problem.compliance[k] = {0.5, 0.4, 0, 0};
+    if (problem.compliant) problem.compliance[k] = {0.5, 0.4, Y.rolling ? 0.6 : 0, 0};
     // The block by unit impulses. The hub's share is left out: it only steers the solver.
     Iterate<Y> rest;
     rest.velocity.assign(body + 1, Vec<D>::Zero()), rest.spin.assign(body + 1, zero_spin<D>());
-    for (int a = 0; a < D; ++a) {
-      Vec<D> unit = n;
-      if (a > 0) unit = across<D>(n).col(a - 1);
+    const auto tangents = across<D>(n);
+    for (int a = 0; a < block_size(Y); ++a) {
       Iterate<Y> pushed = rest;
-      add_impulse(problem, pushed, k, unit);
-      const Vec<D> u = relative_velocity(problem, pushed, rest.gradient, k);
-      bent.w(0, a) = n.dot(u);
-      for (int b = 1; b < D; ++b) bent.w(b, a) = across<D>(n).col(b - 1).dot(u);
+      Mat<D> virial = Mat<D>::Zero();
+      add_reaction(problem, pushed, k, composed<Y>(n, from_frame<Y>(tangents, Reaction<Y>::Unit(a))), virial);
+      bent.w.col(a) = in_frame<Y>(tangents, relative_motion(problem, pushed, rest.gradient, k));
     }
-    if (problem.compliant) bent.w.diagonal().array() += 0.4;
-    if (problem.compliant) bent.w(0, 0) += 0.1;
+    if (problem.compliant) {
+      bent.w.diagonal().template head<D>().array() += 0.4;
+      bent.w(0, 0) += 0.1;
+      if constexpr (Y.rolling) bent.w.diagonal().template segment<D - 1>(D).array() += 0.6;
+    }
     problem.wn[k] = bent.w(0, 0), problem.inverse_wn[k] = 1 / problem.wn[k];
-    problem.inverse_wt[k] = (D - 1) / (bent.w.trace() - problem.wn[k]);
+    problem.inverse_wt[k] = (D - 1) / bent.w.diagonal().template segment<D - 1>(1).sum();
+    if constexpr (Y.rolling) {
+      problem.wr[k] = problem.wp[k] = bent.w.diagonal().template segment<D - 1>(D).mean();
+      problem.coupling[k] = 0;
+    }
     problem.offset[k] = stream.uniform(-2, -1);
     problem.group.push_back(k + 1);
   }
@@ -352,6 +357,8 @@ void check_turning() {
 TEST(StepProblem, MatchesTheOperatorOfBodiesThatTurn) {
   check_turning<Layout{2, true}>();
   check_turning<Layout{3, true}>();
+  check_turning<Layout{2, true, true}>();
+  check_turning<Layout{3, true, true}>();
 }
 
 TEST(StepProblem, MatchesTheOperatorOfDisks) {

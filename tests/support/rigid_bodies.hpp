@@ -77,6 +77,12 @@ std::pair<Scene, Sample<D>> clump_gas(int side, double speed, std::uint64_t seed
   return {scene, sample};
 }
 
+/// Contacts resist rolling, and pivoting in 3D.
+inline void resist_rolling(Scene& scene) {
+  scene.material.rolling_friction = 0.08;
+  if (scene.dimension == 3) scene.material.pivoting_friction = 0.05;
+}
+
 /// Momentum and angular momentum about `origin`; scale: what rounding is relative to.
 template <int D>
 struct BodyMomenta {

@@ -107,11 +107,6 @@ TEST(SceneBodies, MistakesInSpaceSayWhatIsWrong) {
 
 TEST(SceneBodies, WhatTheyCanNotBeCombinedWithIsRefused) {
   using Mistakes = std::vector<std::string>;
-  EXPECT_EQ(mistakes_of(bodies + "body = [{name = \"lid\", spin = 1}]\nmaterial.rolling_friction = 0.1\n"),
-            (Mistakes{"6:9: body[0] turns: cd has no rolling or pivoting resistance of such bodies; take engine = "
-                      "\"md\", or leave out the resistance"}));
-  EXPECT_EQ(mistakes_of(bodies + "body = [{name = \"lid\"}]\nmaterial.rolling_friction = 0.1\n"), Mistakes{})
-      << "it does not turn";
   std::string soft = bodies + "body = [{name = \"lid\", spin = 1}]\nmaterial.normal_stiffness = 1e4\nmd.drag = 1\n";
   soft.replace(soft.find("cd"), 2, "md");
   EXPECT_EQ(mistakes_of(soft), (Mistakes{"8:11: md.drag is refused with [[body]] entries: it acts on grains alone"}));
@@ -196,11 +191,6 @@ TEST(SceneBodies, EnginesRefuseWhatTheyCanNotMove) {
   sample.body[0] = 0;
   EXPECT_EQ(refusal(EngineKind::md, scene, sample), "");
   EXPECT_EQ(refusal(EngineKind::cd, scene, sample), "");
-  Scene rolling = scene;
-  rolling.material.rolling_friction = 0.1;
-  EXPECT_EQ(refusal(EngineKind::md, rolling, sample), "");
-  EXPECT_EQ(refusal(EngineKind::cd, rolling, sample),
-            "error: a rigid body turns: cd has no rolling or pivoting resistance of such bodies");
   Scene damped = scene;
   damped.md.drag = 1;
   EXPECT_EQ(refusal(EngineKind::md, damped, sample),
