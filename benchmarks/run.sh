@@ -19,6 +19,9 @@
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
 #   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
+#   work_precision   error against processor time of both engines in seven classes of scenes, where one overtakes the other, cost laws, and
+#                    orders of convergence to the rigid limit (about ten minutes of one core; goes on where it was stopped)
+#   rigid_limit      contact forces of a hyperstatic packing in md and elastic cd at kappa = 1e2 to 1e7, contact by contact
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
@@ -34,7 +37,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile verify plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -77,6 +80,12 @@ for name in "${names[@]}"; do
     md_accuracy)
       speeds=benchmarks/results/lammps_speed/cases.csv
       if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
+    work_precision)
+      "$bin/benchmarks/work_precision" "$out"
+      rm -f "$out"/*.png ;;
+    rigid_limit)
+      "$bin/benchmarks/rigid_limit" "$out"
+      rm -f "$out"/*.png ;;
     verify)
       # A case that fails is a result too.
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;

@@ -31,6 +31,51 @@ cat <<'END'
 
 END
 measured_on plane_shear_2d
+if [ -f "$results/work_precision/work.csv" ]; then
+  cat <<'END'
+## Speed against error, class by class
+
+`benchmarks/run.sh work_precision`: both engines answer one question about rigid grains in each of seven classes of scenes, at many settings (md: κ and
+steps per contact; cd: dt and tolerance). What is asked stands above each figure and in `benchmarks/work_precision`. Errors of the first three classes are
+against exact answers; of the others they are relative to the rigid limit that both engines tend to, and never counted smaller than their standard error.
+Cost: processor seconds of the steps per unit of the column `per`. A cost between two settings is interpolated along the front of the best ones.
+
+END
+  csv_table "$results/work_precision/at_error.csv"
+  cat <<'END'
+Where which engine is cheaper: ranges of errors, and by which factors (`alone`: the other engine does not get there with the settings tried).
+
+END
+  grep -v '^#' "$results/work_precision/crossover.csv" >"${TMPDIR:-/tmp}/crossover.$$"
+  csv_table "${TMPDIR:-/tmp}/crossover.$$"
+  rm -f "${TMPDIR:-/tmp}/crossover.$$"
+  for class in impact column packing gas biaxial flow_0.1 flow_0.01; do
+    printf '![%s: error against cost](../benchmarks/results/work_precision/%s.svg)\n\n' "$class" "$class"
+  done
+  printf 'Cost laws: exponents of cost in one parameter, the others fixed, with the error that the scatter about the law gives.\n\n'
+  csv_table "$results/work_precision/cost.csv"
+  measured_on work_precision
+  cat <<'END'
+## Rigid limit
+
+Deviations of md from the rigid limit at κ = 10² to 10⁷, from the same runs, and the exponent of κ with which they shrink (of those that stand out of
+their noise). Units as in the classes; [theory](theory.md#rigid-limit) says why.
+
+END
+  csv_table "$results/work_precision/limit.csv"
+fi
+if [ -f "$results/rigid_limit/forces.csv" ]; then
+  cat <<'END'
+Forces of a hyperstatic packing (`benchmarks/run.sh rigid_limit`; columns at the head of `benchmarks/rigid_limit.cpp`): md and elastic cd take the same
+ones, contact by contact, and both tend to one limit; rigid cd takes another set that is in equilibrium as well.
+
+END
+  grep -v '^#' "$results/rigid_limit/forces.csv" >"${TMPDIR:-/tmp}/forces.$$"
+  csv_table "${TMPDIR:-/tmp}/forces.$$"
+  rm -f "${TMPDIR:-/tmp}/forces.$$"
+  printf '![differences of forces against the stiffness level](../benchmarks/results/rigid_limit/forces.svg)\n\n'
+  measured_on rigid_limit
+fi
 for name in isotropic_3d frictionless_2d; do
   case $name in
     isotropic_3d) echo "## Isotropic compression of frictional spheres (3D)"
