@@ -25,8 +25,9 @@
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
-#   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about six minutes)
-#   faults           runs of both engines killed at 200 random moments each: their checkpoints load and go on with the same bits
+#   gradient_flows   inclined plane (stop and flow) and annular shear beside homogeneous shear, both engines
+#   faults           runs of both engines killed at 200 random moments each, a full file system, 1e4 damaged checkpoints, 1e5 scenes with
+#                    mistakes
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
@@ -60,7 +61,18 @@ for name in "${names[@]}"; do
       for engine in md cd; do
         "$bin/src/galet" run "scenes/$name.toml" --engine $engine --out "build/out/$name" | tee "$out/$engine.txt"
       done ;;
-    presets) "$bin/benchmarks/presets" scenes | tee "$out/presets.csv" ;;
+    presets)
+      # A part per scene: what a run that was broken off has finished is not run again.
+      parts=build/out/presets
+      mkdir -p "$parts"
+      for scene in scenes/*.toml; do
+        part=$parts/$(basename "$scene" .toml).csv
+        [ -f "$part" ] && continue
+        "$bin/benchmarks/presets" scenes "$(basename "$scene" .toml)" | tee "$part.part"
+        mv "$part.part" "$part"
+      done
+      awk 'FNR > 1 || NR == 1' "$parts"/*.csv >"$out/presets.csv"
+      rm -r "$parts" ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
     md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
@@ -89,7 +101,14 @@ for name in "${names[@]}"; do
     verify)
       # A case that fails is a result too.
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
-    faults) GALET_KILLS=200 "$bin/tests/command/command_tests" --gtest_filter='*KilledAtAnyMoment*' | grep -v '^Note' | tee "$out/kills.txt" ;;
+    gradient_flows)
+      "$bin/benchmarks/gradient_flows" slope | tee "$out/slope.csv"
+      "$bin/benchmarks/gradient_flows" annulus | tee "$out/annulus.csv" ;;
+    faults)
+      {
+        GALET_KILLS=200 "$bin/tests/command/command_tests"
+        "$bin/tests/long_tests" --gtest_filter='Mutations.*'
+      } | grep -v '^Note\|^Running\|^ *$\|RUN\|^\[---' | sed 's/ ([0-9]* ms.*)//; s/, where GetParam() = .*//' | tee "$out/faults.txt" ;;
     solver_profile)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"

@@ -229,6 +229,47 @@ END
   csv_table "$results/neighbour_sizes/neighbour_sizes.csv"
   measured_on neighbour_sizes
 fi
+if [ -f "$results/presets/presets.csv" ]; then
+  cat <<'END'
+## Every ready scene, both engines
+
+`benchmarks/run.sh presets`. Stresses, μ*, Φ and z are those of the run's summary (of stages before the last: their last sample). `held`: what the loading asks
+for at the end of a stage and what was there (mean and scatter of the rows of its last third; between walls and down a slope: of the middle of
+the profile). `budget`: md: energy not accounted for over energy dissipated; cd: energy that contacts made over energy they dissipated.
+`missed`: steps of cd above the solver's tolerance. `penetration`: the largest, over d.
+
+END
+  csv_table "$results/presets/presets.csv"
+  measured_on presets
+fi
+if [ -f "$results/gradient_flows/annulus.csv" ]; then
+  cat <<'END'
+## Flows whose stress is not uniform
+
+`benchmarks/run.sh gradient_flows`; what was run stands at the head of `benchmarks/gradient_flows.cpp`. Stop and flow on a rough inclined plane, a layer
+of disks 12 d deep:
+
+END
+  csv_table "$results/gradient_flows/slope.csv"
+  cat <<'END'
+Annular shear: the local law, ring by ring, beside homogeneous shear at the ring's I.
+
+END
+  csv_table "$results/gradient_flows/annulus.csv"
+  measured_on gradient_flows
+fi
+if [ -f "$results/faults/faults.txt" ]; then
+  cat <<'END'
+## Faults
+
+`benchmarks/run.sh faults`: programs killed (SIGKILL) at random moments, interrupted, or left without room, and damaged files. Each kill: every file that was
+finished before is whole, the checkpoint loads, and the run that goes on from it ends with the bits of the run that nobody disturbed.
+Damaged checkpoints are refused or have the sound one's bits; scenes with mistakes are refused or read as they are written.
+
+END
+  block "$results/faults/faults.txt"
+  measured_on faults
+fi
 cat <<'END'
 ## Cost of md against the number of grains
 

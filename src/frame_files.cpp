@@ -1,6 +1,5 @@
 #include "src/frame_files.hpp"
 
-#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -14,15 +13,22 @@ namespace galet {
 
 namespace {
 
-constexpr std::array<const char*, 3> parts = {"grains", "contacts", "cell"};
-
 std::string numbered(const std::string& stem, long index, const char* extension) {
   return fmt::format("{}_{:06}{}", stem, index, extension);
 }
 
+/// The files that ParaView gets of a state.
+struct Part {
+  const char* name;
+  std::string text;
+};
+
 template <int D>
-std::array<std::string, 3> paraview_texts(const Snapshot<D>& snapshot, const std::vector<int>& material) {
-  return {vtp_grains(snapshot, material), vtp_contacts(snapshot), vtp_cell(snapshot)};
+std::vector<Part> paraview_parts(const Snapshot<D>& snapshot, const std::vector<int>& material) {
+  std::vector<Part> parts = {
+      {"grains", vtp_grains(snapshot, material)}, {"contacts", vtp_contacts(snapshot)}, {"cell", vtp_cell(snapshot)}};
+  if (!snapshot.planes.empty()) parts.push_back({"walls", vtp_walls(snapshot)});
+  return parts;
 }
 
 }  // namespace
@@ -46,10 +52,9 @@ void FrameFiles::write(const Frame& frame, const Snapshot<D>& snapshot) const {
       write_file(stem_ + "_trajectory.h5", hdf5_trajectory(frame.times, frame.steps, files));
     }
     if (format != "paraview") continue;
-    const std::array<std::string, 3> texts = paraview_texts(snapshot, material_);
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      const std::string stem = stem_ + '_' + parts[part];
-      write_file(numbered(stem, index, ".vtp"), texts[part]);
+    for (const Part& part : paraview_parts(snapshot, material_)) {
+      const std::string stem = stem_ + '_' + part.name;
+      write_file(numbered(stem, index, ".vtp"), part.text);
       std::vector<std::pair<double, std::string>> files;
       for (std::size_t k = 0; k < frame.times.size(); ++k)
         files.emplace_back(frame.times[k],
@@ -63,7 +68,8 @@ std::vector<std::string> FrameFiles::opened() const {
   std::vector<std::string> names;
   for (const std::string& format : formats_) {
     if (format == "paraview")
-      for (const char* part : parts) names.push_back(stem_ + '_' + part + ".pvd");
+      for (const char* part : {"grains", "contacts", "cell", "walls"})  // no walls, no file of them
+        if (std::filesystem::exists(stem_ + '_' + part + ".pvd")) names.push_back(stem_ + '_' + part + ".pvd");
     if (format == "xyz") names.push_back(stem_ + "_*.xyz");
     if (format == "lammps") names.push_back(stem_ + "_*.dump");
     if (format == "hdf5") names.push_back(stem_ + "_trajectory.h5");
@@ -83,8 +89,7 @@ std::vector<std::string> write_state(const std::string& stem, const std::string&
   if (format == "dump") put(stem + ".dump", lammps_dump(snapshot, labels.step, labels.material));
   if (format == "hdf5") put(stem + ".h5", hdf5_state(snapshot, labels));
   if (format == "paraview") {
-    const std::array<std::string, 3> texts = paraview_texts(snapshot, labels.material);
-    for (std::size_t part = 0; part < parts.size(); ++part) put(stem + '_' + parts[part] + ".vtp", texts[part]);
+    for (const Part& part : paraview_parts(snapshot, labels.material)) put(stem + '_' + part.name + ".vtp", part.text);
   }
   require(!paths.empty(), "a state is written as paraview, hdf5, xyz or dump");
   return paths;

@@ -1,6 +1,6 @@
 // Files of states at intervals of a run (output.frames), and of one state (galet export).
 //
-//   md_grains_000012.vtp, md_contacts_000012.vtp, md_cell_000012.vtp and md_grains.pvd, ...   paraview
+//   md_grains_000012.vtp, the same of contacts, cell and walls (if any), and md_grains.pvd, ...   paraview
 //   md_000012.h5 and md_trajectory.h5                                                        hdf5
 //   md_000012.xyz                                                                            xyz
 //   md_000012.dump                                                                           lammps
@@ -26,7 +26,7 @@ class FrameFiles {
   template <int D>
   void write(const Frame& frame, const Snapshot<D>& snapshot) const;
 
-  /// What a user opens: the collections, or the pattern of the file names.
+  /// What a user opens of what was written: the collections, or the pattern of the file names.
   std::vector<std::string> opened() const;
 
  private:

@@ -26,13 +26,13 @@ std::string render_spheres(const std::string& path, const Snapshot<3>& snapshot,
   write_file(folder.file("grains.vtp"), vtp_grains(snapshot));
   write_file(folder.file("contacts.vtp"), vtp_contacts(snapshot));
   write_file(folder.file("cell.vtp"), vtp_cell(snapshot));
+  write_file(folder.file("walls.vtp"), vtp_walls(snapshot));
   const std::string colour = options.colour == GrainColour::speed ? "speed" : "coordination",
                     script = data_file("render.py");
   // The system's own Python has the system's packages, whatever comes first along PATH.
   for (const char* python : {"python3", "/usr/bin/python3"}) {
-    const ProgramEnd end =
-        run_program({python, script, folder.file("grains.vtp"), folder.file("contacts.vtp"), folder.file("cell.vtp"),
-                     folder.file("picture.png"), colour, fmt::format("{}", options.width), options.title});
+    const ProgramEnd end = run_program({python, script, folder.path(), folder.file("picture.png"), colour,
+                                        fmt::format("{}", options.width), options.title});
     if (end.well()) {
       write_file(path, read_file(folder.file("picture.png")));
       return "";

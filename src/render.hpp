@@ -18,9 +18,9 @@ struct RenderOptions {
   int width = 1600;  ///< pixels
 };
 
-/// Writes a PNG file: the grains with their radii on the left, the contact forces as tubes on the right. Returns an
-/// empty text, or, when the machine lacks what draws it, what is missing; nothing is written then. Throws RunError when
-/// the drawing fails.
+/// Writes a PNG file: the grains with their radii on the left, the contact forces as tubes on the right; planes and
+/// cylinders as clear surfaces, grains of rough walls grey. Returns an empty text, or, when the machine lacks what
+/// draws it, what is missing; nothing is written then. Throws RunError when the drawing fails.
 std::string render_spheres(const std::string& path, const Snapshot<3>& snapshot, const RenderOptions& options);
 
 }  // namespace galet

@@ -132,6 +132,8 @@ std::string script_text(const Figure& figure, const std::string& name) {
                   quote(name + ".gp"), quote(figure.title));
   text += axis_text(figure, 'x') + axis_text(figure, 'y');
   const auto room = [](bool logarithmic) { return logarithmic ? "0, 0" : "graph 0.03, graph 0.03"; };
+  // Room beside the points themselves: without "noextend" ranges first grow to the next mark, and the room adds to that.
+  text += "set autoscale noextend\n";
   text += fmt::format("set offsets {}, {}\n", room(figure.log_x), room(figure.log_y));
   text += "set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1\nset border linewidth 1.2\n";
   text += "set errorbars 0.8\n";

@@ -107,6 +107,14 @@ void put_cell(const Writer& writer, const Cell<D>& cell) {
 }
 
 template <int D>
+void put_spins(const Writer& writer, const std::string& name, std::span<const Spin<D>> spins) {
+  if constexpr (D == 2)
+    writer.put(name, std::vector<double>(spins.begin(), spins.end()), 0, "1/s");
+  else
+    writer.put(name, flat<3>(spins), 3, "1/s");
+}
+
+template <int D>
 void put_grains(const Writer& writer, const Snapshot<D>& snapshot, const std::vector<int>& material) {
   const Cell<D>& cell = *snapshot.cell;
   const Mat<D> inverse = cell.box.inverse();
@@ -118,17 +126,15 @@ void put_grains(const Writer& writer, const Snapshot<D>& snapshot, const std::ve
   writer.put("grains/position", flat<D>(position), D, "m");
   writer.put("grains/velocity", flat<D>(velocity), D, "m/s");
   writer.put("grains/fluctuation", flat<D>(snapshot.velocity), D, "m/s");
-  if (!snapshot.spin.empty()) {
-    if constexpr (D == 2)
-      writer.put("grains/angular_velocity", std::vector<double>(snapshot.spin.begin(), snapshot.spin.end()), 0, "1/s");
-    else
-      writer.put("grains/angular_velocity", flat<3>(snapshot.spin), 3, "1/s");
-  }
+  if (!snapshot.spin.empty()) put_spins<D>(writer, "grains/angular_velocity", snapshot.spin);
   writer.put("grains/radius", std::vector<double>(snapshot.radius.begin(), snapshot.radius.end()), 0, "m");
   writer.put("grains/mass", std::vector<double>(snapshot.mass.begin(), snapshot.mass.end()), 0, "kg");
   std::vector<std::int64_t> kinds(static_cast<std::size_t>(snapshot.grains()), 0);
   for (std::size_t i = 0; i < material.size() && i < kinds.size(); ++i) kinds[i] = material[i];
   writer.put("grains/material", kinds, 0, "");
+  if (!snapshot.body_of.empty())
+    writer.put("grains/body", std::vector<std::int64_t>(snapshot.body_of.begin(), snapshot.body_of.end()), 0, "",
+               "the grain's rigid body, -1: none");
 }
 
 template <int D>
@@ -147,12 +153,22 @@ void put_contacts(const Writer& writer, const ContactColumns<D>& contacts) {
 
 template <int D>
 void put_planes(const Writer& writer, std::span<const Plane<D>> planes) {
-  std::vector<Vec<D>> point, normal, velocity;
-  for (const Plane<D>& plane : planes)
+  std::vector<Vec<D>> point, normal, velocity, axis;
+  std::vector<double> radius;
+  std::vector<std::uint8_t> inside;
+  std::vector<Spin<D>> spin;
+  for (const Plane<D>& plane : planes) {
     point.push_back(plane.point), normal.push_back(plane.normal), velocity.push_back(plane.velocity);
+    radius.push_back(plane.radius), inside.push_back(plane.curved() && plane.inside ? 1 : 0);
+    axis.push_back(plane.axis), spin.push_back(plane.spin);
+  }
   writer.put("planes/point", flat<D>(point), D, "m");
   writer.put("planes/normal", flat<D>(normal), D, "");
   writer.put("planes/velocity", flat<D>(velocity), D, "m/s");
+  writer.put("planes/radius", radius, 0, "m", "of a cylinder; 0: a plane");
+  writer.put("planes/inside", inside, 0, "", "1: a cylinder that has the grains inside");
+  put_spins<D>(writer, "planes/angular_velocity", spin);
+  if (D == 3) writer.put("planes/axis", flat<D>(axis), D, "");
 }
 
 Handle file_properties() { return {H5Pcreate(H5P_FILE_CREATE), H5Pclose, "making file properties"}; }

@@ -3,11 +3,13 @@
 //   state        attributes of the root: format "galet state", version, dimension, engine, time, step
 //     /cell        box (row a, column b: component a of cell vector b), rate (velocity gradient), strain, periodic
 //     /grains      position (inside the cell), velocity (v + L x), fluctuation (v), angular_velocity (absent without
-//                  friction), radius, mass, material
+//                  friction), radius, mass, material and, in scenes with rigid bodies, body (-1: none)
 //     /contacts    i, j (a plane's number follows the grains'), normal (from i to j), branch, gap, force (on j),
 //     touching
 //                  and, with friction, mobilised
-//     /planes      point, normal, velocity
+//     /planes      point, normal, velocity; radius (0: a plane, else a cylinder), inside (1: grains are in the
+//     cylinder),
+//                  angular_velocity and, in 3D, axis of a cylinder
 //   trajectory   time, step of each frame; /frames/000012 leads to the state in a file of its own (an external link)
 //   table        a dataset per column
 //

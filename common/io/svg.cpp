@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/core/error.hpp"
+#include "common/geometry/boundary_surface.hpp"
 #include "common/geometry/wrap.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
@@ -78,7 +79,7 @@ class Picture {
     draw_grains();
     draw_contacts();
     text_ += "</g>\n";
-    draw_planes();
+    draw_boundaries();
     draw_outline();
     draw_head();
     draw_legend();
@@ -91,8 +92,8 @@ class Picture {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
   }
 
-  double right(double x) const { return origin_x_ + (x - low_.x()) * scale_; }
-  double down(double y) const { return origin_y_ + (high_.y() - y) * scale_; }
+  double right(double x) const { return origin_x_ + (x - shown_.low.x()) * scale_; }
+  double down(double y) const { return origin_y_ + (shown_.high.y() - y) * scale_; }
 
   /// Takes whole turns of one cell vector off the other, when both are periodic: the one that lies along x or, in a
   /// cell sheared the other way, along y stays.
@@ -122,31 +123,18 @@ class Picture {
 
   /// The part of space to show, and where it goes on the page.
   void lay_out() {
-    low_ = high_ = Vec<2>::Zero();
-    const auto include = [this](const Vec<2>& x, double margin) {
-      low_ = low_.cwiseMin(x - Vec<2>::Constant(margin));
-      high_ = high_.cwiseMax(x + Vec<2>::Constant(margin));
-    };
-    for (int corner = 1; corner < 4; ++corner) include(cell_.box * Vec<2>(corner & 1, corner >> 1), 0);
-    const Vec<2> width = face_distances<2>(cell_.box);
-    for (int i = 0; i < snapshot_.grains(); ++i) {  // grains may stick out where the cell is not periodic
-      const Vec<2> s = wrapped_fraction<2>(cell_, inverse_, snapshot_.position[i]);
-      for (int a = 0; a < 2; ++a) {
-        const double extent = snapshot_.radius[i] / width[a];
-        if (!cell_.periodic[a] && (s[a] < extent || s[a] > 1 - extent)) include(cell_.box * s, snapshot_.radius[i]);
-      }
-    }
+    shown_ = sample_extent<2>(cell_, snapshot_.position, snapshot_.radius);
     if (!snapshot_.planes.empty()) {
-      low_ -= Vec<2>::Constant(0.8 * diameter_);  // room for the hatching
-      high_ += Vec<2>::Constant(0.8 * diameter_);
+      shown_.low -= Vec<2>::Constant(0.8 * diameter_);  // room for the hatching
+      shown_.high += Vec<2>::Constant(0.8 * diameter_);
     }
     const double margin = 24;
-    scale_ = (options_.width - 2 * margin) / (high_.x() - low_.x());
+    scale_ = (options_.width - 2 * margin) / (shown_.high.x() - shown_.low.x());
     const double tallest = 1.5 * options_.width;
-    scale_ = std::min(scale_, tallest / (high_.y() - low_.y()));
-    origin_x_ = (options_.width - scale_ * (high_.x() - low_.x())) / 2;
+    scale_ = std::min(scale_, tallest / (shown_.high.y() - shown_.low.y()));
+    origin_x_ = (options_.width - scale_ * (shown_.high.x() - shown_.low.x())) / 2;
     origin_y_ = 66;
-    legend_y_ = origin_y_ + scale_ * (high_.y() - low_.y()) + 30;
+    legend_y_ = origin_y_ + scale_ * (shown_.high.y() - shown_.low.y()) + 30;
     height_ = legend_y_ + 70;
   }
 
@@ -169,7 +157,10 @@ class Picture {
         "{1:.0f}\">\n",
         options_.width, height_);
     add("<title>{}</title>\n", escaped(options_.title.empty() ? "Force chains" : options_.title));
-    add("<defs><clipPath id=\"cell\"><polygon points=\"{}\"/></clipPath></defs>\n", points(cell_corners(10)));
+    add("<defs><clipPath id=\"cell\"><polygon points=\"{}\"/></clipPath><clipPath id=\"view\"><polygon "
+        "points=\"{}\"/></clipPath></defs>\n",
+        points(cell_corners(10)),
+        points({shown_.low, {shown_.high.x(), shown_.low.y()}, shown_.high, {shown_.low.x(), shown_.high.y()}}));
     add("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"white\"/>\n<g clip-path=\"url(#cell)\">\n", options_.width,
         height_);
   }
@@ -240,38 +231,33 @@ class Picture {
         points(cell_corners(0)), cell_.any_periodic() ? "" : " stroke-dasharray=\"2 4\"");
   }
 
-  /// The stretch of a plane that is in view, as the range of the arc length from the plane's point; empty when low >
-  /// high.
-  std::array<double, 2> visible_stretch(const Plane<2>& plane, const Vec<2>& along) const {
-    double from = -1e300, to = 1e300;
-    for (int a = 0; a < 2; ++a) {
-      const double lower = low_[a] - plane.point[a], upper = high_[a] - plane.point[a];
-      if (std::abs(along[a]) < 1e-12) {
-        if (lower > 0 || upper < 0) return {1, 0};
-        continue;
+  /// A line with oblique strokes on the side where no grain may be.
+  void draw_boundaries() {
+    for (const Plane<2>& boundary : snapshot_.planes)
+      for (const std::vector<Vec<2>>& line : boundary_faces<2>(boundary, shown_)) {
+        text_ += "<g clip-path=\"url(#view)\" stroke=\"#333333\"><path stroke-width=\"1.8\" fill=\"none\" d=\"";
+        for (std::size_t k = 0; k < line.size(); ++k)
+          add("{}{:.2f} {:.2f}", k == 0 ? 'M' : 'L', right(line[k].x()), down(line[k].y()));
+        text_ += "\"/>\n<path stroke-width=\"0.8\" fill=\"none\" d=\"";
+        draw_hatching(boundary, line);
+        text_ += "\"/></g>\n";
       }
-      from = std::max(from, std::min(lower / along[a], upper / along[a]));
-      to = std::min(to, std::max(lower / along[a], upper / along[a]));
-    }
-    return {from, to};
   }
 
-  /// A line with oblique strokes on the side where no grain may be.
-  void draw_planes() {
-    for (const Plane<2>& plane : snapshot_.planes) {
-      const Vec<2> along(plane.normal.y(), -plane.normal.x());
-      const auto [from, to] = visible_stretch(plane, along);
-      if (from >= to) continue;
-      const Vec<2> a = plane.point + from * along, b = plane.point + to * along;
-      const double pitch = 0.5 * diameter_;
-      add("<g stroke=\"#333333\"><path stroke-width=\"1.8\" d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\"/>\n", right(a.x()),
-          down(a.y()), right(b.x()), down(b.y()));
-      text_ += "<path stroke-width=\"0.8\" fill=\"none\" d=\"";
-      for (double place = from + pitch / 2; place < to; place += pitch) {
-        const Vec<2> top = plane.point + place * along, bottom = top - 0.45 * diameter_ * (plane.normal + along);
+  /// Strokes at equal distances along the line.
+  void draw_hatching(const Plane<2>& boundary, const std::vector<Vec<2>>& line) {
+    const double pitch = 0.5 * diameter_;
+    double place = pitch / 2;  // of the next stroke, from the corner where the side begins
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const double length = (line[k + 1] - line[k]).norm();
+      for (; place < length; place += pitch) {
+        const Vec<2> top = line[k] + place / length * (line[k + 1] - line[k]);
+        if (!shown_.contains(top, 1e-6 * diameter_)) continue;  // a plane that only its shadow is left of
+        const Vec<2> normal = tangent_plane<2>(boundary, top).normal, along(normal.y(), -normal.x());
+        const Vec<2> bottom = top - 0.45 * diameter_ * (normal + along);
         add("M{:.2f} {:.2f}L{:.2f} {:.2f}", right(top.x()), down(top.y()), right(bottom.x()), down(bottom.y()));
       }
-      text_ += "\"/></g>\n";
+      place -= length;
     }
   }
 
@@ -333,8 +319,8 @@ class Picture {
   double mean_force_ = 0;  ///< mean of |F_N| over the contacts
   bool has_traction_ = false;
   std::vector<double> normal_force_;
-  Vec<2> low_, high_;  ///< corners of what is shown
-  double scale_ = 1;   ///< pixels per unit of length
+  Extent<2> shown_;
+  double scale_ = 1;  ///< pixels per unit of length
   double origin_x_ = 0, origin_y_ = 0, legend_y_ = 0, height_ = 0;
   std::string text_;
 };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/geometry/boundary_surface.hpp"
 #include "common/geometry/wrap.hpp"
 #include "common/io/base64.hpp"
 
@@ -34,27 +35,35 @@ void append_components(std::vector<double>& flat, const Vec<D>& value) {
 }
 void append_components(std::vector<double>& flat, double spin) { flat.insert(flat.end(), {0, 0, spin}); }
 
-/// Cells of `size` consecutive points each.
-std::string cells(const char* element, std::size_t count, int size) {
-  std::vector<std::int64_t> connectivity(count * size), offsets(count);
-  for (std::size_t k = 0; k < connectivity.size(); ++k) connectivity[k] = static_cast<std::int64_t>(k);
-  for (std::size_t k = 0; k < count; ++k) offsets[k] = static_cast<std::int64_t>(k + 1) * size;
-  return fmt::format("<{0}>\n{1}{2}</{0}>\n", element, data_array("connectivity", connectivity),
-                     data_array("offsets", offsets));
-}
+/// The cells of a file, all of one kind ("Verts", "Lines" or "Polys"), each of some consecutive points.
+struct Cells {
+  std::string kind;
+  std::vector<std::int64_t> ends;  ///< of each cell: the number of the point behind its last
 
-/// A whole file. `points`: three numbers each; one kind of cells.
+  static Cells of_size(const std::string& kind, std::size_t count, int size) {
+    Cells cells{kind, {}};
+    for (std::size_t k = 0; k < count; ++k) cells.ends.push_back(static_cast<std::int64_t>(k + 1) * size);
+    return cells;
+  }
+  std::string text() const {
+    std::vector<std::int64_t> points(ends.empty() ? 0 : static_cast<std::size_t>(ends.back()));
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<std::int64_t>(k);
+    return fmt::format("<{0}>\n{1}{2}</{0}>\n", kind, data_array("connectivity", points), data_array("offsets", ends));
+  }
+  std::size_t count_of(std::string_view other) const { return kind == other ? ends.size() : 0; }
+};
+
+/// A whole file. `points`: three numbers each.
 std::string poly_data(const std::vector<double>& points, const std::string& point_data, const std::string& cell_data,
-                      const char* element, std::size_t count, int size) {
-  const bool lines = std::string_view(element) == "Lines";
+                      const Cells& cells) {
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
-      "NumberOfPolys=\"0\">\n<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n{}"
+      "NumberOfPolys=\"{}\">\n<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n{}"
       "</Piece>\n</PolyData>\n</VTKFile>\n",
-      points.size() / 3, lines ? 0 : count, lines ? count : 0, point_data, cell_data, data_array("Points", points, 3),
-      cells(element, count, size));
+      points.size() / 3, cells.count_of("Verts"), cells.count_of("Lines"), cells.count_of("Polys"), point_data,
+      cell_data, data_array("Points", points, 3), cells.text());
 }
 
 }  // namespace
@@ -64,7 +73,8 @@ std::string vtp_grains(const Snapshot<D>& snapshot, const std::vector<int>& mate
   const Cell<D>& cell = *snapshot.cell;
   const Mat<D> inverse = cell.box.inverse();
   std::vector<double> points, velocity, fluctuation, spin;
-  std::vector<std::int64_t> id, kind, contacts(snapshot.grains(), 0);
+  std::vector<std::int64_t> id, kind, body, contacts(snapshot.grains(), 0);
+  std::vector<std::uint8_t> boundary;
   for (std::size_t c = 0; c < snapshot.contacts->size(); ++c) {
     if (!snapshot.contacts->touches(c)) continue;
     ++contacts[snapshot.contacts->i[c]];
@@ -78,14 +88,17 @@ std::string vtp_grains(const Snapshot<D>& snapshot, const std::vector<int>& mate
     append_components(spin, snapshot.spin.empty() ? zero_spin<D>() : snapshot.spin[i]);
     id.push_back(i);
     kind.push_back(material.empty() ? 0 : material[i]);
+    body.push_back(snapshot.body_of.empty() ? -1 : snapshot.body_of[i]);
+    boundary.push_back(body.back() >= 0 && !snapshot.in_free_body(i) ? 1 : 0);
   }
   const std::vector<double> radius(snapshot.radius.begin(), snapshot.radius.end());
   const std::vector<double> mass(snapshot.mass.begin(), snapshot.mass.end());
   const std::string data = data_array("id", id) + data_array("radius", radius) + data_array("mass", mass) +
                            data_array("material", kind) + data_array("velocity", velocity, 3) +
                            data_array("fluctuation", fluctuation, 3) + data_array("angular_velocity", spin, 3) +
-                           data_array("contacts", contacts);
-  return poly_data(points, data, "", "Verts", id.size(), 1);
+                           data_array("contacts", contacts) + data_array("body", body) +
+                           data_array("boundary", boundary);
+  return poly_data(points, data, "", Cells::of_size("Verts", id.size(), 1));
 }
 
 template <int D>
@@ -109,14 +122,14 @@ std::string vtp_contacts(const Snapshot<D>& snapshot) {
                      data_array("tangential_force", tangential) + data_array("gap", contacts.gap) +
                      data_array("i", first) + data_array("j", second) + data_array("touching", touching);
   if (!contacts.mobilised.empty()) data += data_array("mobilised", contacts.mobilised);
-  return poly_data(points, "", data, "Lines", contacts.size(), 2);
+  return poly_data(points, "", data, Cells::of_size("Lines", contacts.size(), 2));
 }
 
 template <int D>
 std::string vtp_cell(const Snapshot<D>& snapshot) {
   const Mat<D>& box = snapshot.cell->box;
   std::vector<double> points;
-  std::size_t edges = 0;
+  std::vector<std::uint8_t> periodic;
   for (int a = 0; a < D; ++a)
     for (int corner = 0; corner < 1 << D; ++corner) {
       if ((corner >> a & 1) != 0) continue;  // each edge once, from its end at fraction 0
@@ -125,9 +138,29 @@ std::string vtp_cell(const Snapshot<D>& snapshot) {
         if ((corner >> b & 1) != 0) from += box.col(b);
       append_components<D>(points, from);
       append_components<D>(points, from + box.col(a));
-      ++edges;
+      periodic.push_back(snapshot.cell->periodic[a] ? 1 : 0);
     }
-  return poly_data(points, "", "", "Lines", edges, 2);
+  return poly_data(points, "", data_array("periodic", periodic), Cells::of_size("Lines", periodic.size(), 2));
+}
+
+template <int D>
+std::string vtp_walls(const Snapshot<D>& snapshot) {
+  const Extent<D> shown = sample_extent<D>(*snapshot.cell, snapshot.position, snapshot.radius);
+  Cells cells{D == 2 ? "Lines" : "Polys", {}};
+  std::vector<double> points, velocity, normal;
+  std::vector<std::int64_t> number;
+  for (std::size_t wall = 0; wall < snapshot.planes.size(); ++wall)
+    for (const std::vector<Vec<D>>& face : boundary_faces<D>(snapshot.planes[wall], shown)) {
+      for (const Vec<D>& corner : face) append_components<D>(points, corner);
+      cells.ends.push_back(static_cast<std::int64_t>(points.size() / 3));
+      const Plane<D> there = tangent_plane<D>(snapshot.planes[wall], (face[0] + face[1]) / 2);
+      append_components<D>(velocity, there.velocity);
+      append_components<D>(normal, there.normal);
+      number.push_back(snapshot.grains() + static_cast<std::int64_t>(wall));
+    }
+  return poly_data(points, "",
+                   data_array("j", number) + data_array("velocity", velocity, 3) + data_array("normal", normal, 3),
+                   cells);
 }
 
 std::string pvd(const std::vector<std::pair<double, std::string>>& files) {
@@ -145,5 +178,7 @@ template std::string vtp_contacts<2>(const Snapshot<2>&);
 template std::string vtp_contacts<3>(const Snapshot<3>&);
 template std::string vtp_cell<2>(const Snapshot<2>&);
 template std::string vtp_cell<3>(const Snapshot<3>&);
+template std::string vtp_walls<2>(const Snapshot<2>&);
+template std::string vtp_walls<3>(const Snapshot<3>&);
 
 }  // namespace galet

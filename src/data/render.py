@@ -1,9 +1,10 @@
 """Picture of a state of spheres, drawn without a screen by VTK.
 
-    render.py GRAINS.vtp CONTACTS.vtp CELL.vtp PICTURE.png COLOUR WIDTH TITLE
+    render.py FOLDER PICTURE.png COLOUR WIDTH TITLE
 
-On the left the grains with their radii, coloured by COLOUR ("speed": of the fluctuation; "coordination": contacts of the
-grain), on the right the contact forces as tubes: radius and colour grow with the normal force up to four times its mean.
+FOLDER has grains.vtp, contacts.vtp, cell.vtp and walls.vtp. On the left the grains with their radii, coloured by COLOUR
+("speed": of the fluctuation; "coordination": contacts of the grain), those of rough walls grey; on the right the contact
+forces as tubes: radius and colour grow with the normal force up to four times its mean. Walls are clear surfaces.
 Exit codes: 0 done; 3 there is no VTK for this Python; 4 VTK has nothing to draw with; 1 anything else.
 """
 import ctypes
@@ -19,6 +20,7 @@ except ImportError as error:
     sys.exit(3)
 
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # VTK's own fonts have no Greek letters
+PARTS = ("grains", "contacts", "cell", "walls")
 SATURATION = 4.0  # tubes grow up to this many mean forces
 RADIUS_AT_MEAN = 0.055  # of a tube, in mean diameters
 
@@ -136,15 +138,20 @@ def caption(text, x, y, size):
     return actor
 
 
-def grains_actor(grains, values, table, opacity):
+def grains_actor(grains, chosen, values, table, opacity):
+    """The grains of the mask `chosen`; None without any. `values` colours them; None: grey."""
+    if not chosen.any():
+        return None
     shown = vtk.vtkPolyData()
-    shown.SetPoints(grains.GetPoints())
-    diameter = numpy_to_vtk(2 * vtk_to_numpy(grains.GetPointData().GetArray("radius")), deep=1)
-    diameter.SetName("diameter")
-    shown.GetPointData().AddArray(diameter)
+    points = vtk.vtkPoints()
+    points.SetData(numpy_to_vtk(vtk_to_numpy(grains.GetPoints().GetData())[chosen], deep=1))
+    shown.SetPoints(points)
+    columns = {"diameter": 2 * vtk_to_numpy(grains.GetPointData().GetArray("radius"))}
     if values is not None:
-        column = numpy_to_vtk(values.astype(float), deep=1)
-        column.SetName("value")
+        columns["value"] = values.astype(float)
+    for name, numbers in columns.items():
+        column = numpy_to_vtk(numbers[chosen], deep=1)
+        column.SetName(name)
         shown.GetPointData().AddArray(column)
     sphere = vtk.vtkSphereSource()
     sphere.SetRadius(0.5)
@@ -169,6 +176,34 @@ def grains_actor(grains, values, table, opacity):
     actor.GetProperty().SetSpecular(0.25)
     actor.GetProperty().SetSpecularPower(30)
     return actor
+
+
+def wall_actors(walls):
+    """Clear surfaces, with the lines where they end."""
+    if walls.GetNumberOfPolys() == 0:
+        return []
+    merged = vtk.vtkCleanPolyData()  # sides of a cylinder share their corners
+    merged.SetInputData(walls)
+    surface = vtk.vtkPolyDataMapper()
+    surface.SetInputConnection(merged.GetOutputPort())
+    surface.ScalarVisibilityOff()
+    clear = vtk.vtkActor()
+    clear.SetMapper(surface)
+    clear.GetProperty().SetColor(0.36, 0.5, 0.65)
+    clear.GetProperty().SetOpacity(0.13)
+    clear.GetProperty().LightingOff()
+    ends = vtk.vtkFeatureEdges()
+    ends.SetInputConnection(merged.GetOutputPort())
+    ends.ManifoldEdgesOff()
+    ends.NonManifoldEdgesOff()
+    ends.ColoringOff()
+    lines = vtk.vtkPolyDataMapper()
+    lines.SetInputConnection(ends.GetOutputPort())
+    edges = vtk.vtkActor()
+    edges.SetMapper(lines)
+    edges.GetProperty().SetColor(0.24, 0.36, 0.5)
+    edges.GetProperty().SetLineWidth(1.5)
+    return [clear, edges]
 
 
 def tubes_actor(contacts, diameter, table):
@@ -206,11 +241,18 @@ def tubes_actor(contacts, diameter, table):
 def edges_actor(cell):
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(cell)
+    mapper.ScalarVisibilityOff()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(0.1, 0.1, 0.1)
     actor.GetProperty().SetLineWidth(2)
     return actor
+
+
+def show(renderer, *actors):
+    for actor in actors:
+        if actor is not None:
+            renderer.AddActor(actor)
 
 
 def look(renderer):
@@ -228,13 +270,14 @@ def look(renderer):
     renderer.ResetCameraClippingRange()
 
 
-def main(grains_path, contacts_path, cell_path, picture, colour, width, title):
+def main(folder, picture, colour, width, title):
     window = make_window()
     if window is None:
         print("no OpenGL context: EGL with a software renderer is missing (libegl1, libgl1-mesa-dri)", file=sys.stderr)
         return 4
-    grains, contacts, cell = read(grains_path), read(contacts_path), read(cell_path)
+    grains, contacts, cell, walls = [read(os.path.join(folder, part + ".vtp")) for part in PARTS]
     data = grains.GetPointData()
+    glued = vtk_to_numpy(data.GetArray("boundary")) != 0
     diameter = 2 * float(numpy.mean(vtk_to_numpy(data.GetArray("radius"))))
     if colour == "coordination":
         values, label = vtk_to_numpy(data.GetArray("contacts")).astype(float), "contacts of the grain"
@@ -242,17 +285,18 @@ def main(grains_path, contacts_path, cell_path, picture, colour, width, title):
     else:
         values = numpy.linalg.norm(vtk_to_numpy(data.GetArray("fluctuation")), axis=1)
         label, low = "speed of the fluctuation", 0.0
-        high = float(numpy.percentile(values, 98)) or 1.0  # a few fast grains must not hide the others
+        moving = values[~glued] if not glued.all() else values
+        high = float(numpy.percentile(moving, 98)) or 1.0  # a few fast grains must not hide the others
     grain_colours = colours(["#4a5a9e", "#2f7f9d", "#22a884", "#7ad151", "#fde725"], low, high)
     force_colours = colours(["#ec973e", "#d65424", "#a0182a", "#4a0422"], 0.0, SATURATION)
 
     left, right = vtk.vtkRenderer(), vtk.vtkRenderer()
     left.SetViewport(0, 0, 0.5, 1)
     right.SetViewport(0.5, 0, 1, 1)
-    left.AddActor(grains_actor(grains, values, grain_colours, 1.0))
+    show(left, grains_actor(grains, ~glued, values, grain_colours, 1.0), grains_actor(grains, glued, None, None, 0.35))
     left.AddActor2D(colour_bar(grain_colours, label, width))
     tubes = tubes_actor(contacts, diameter, force_colours)
-    right.AddActor(grains_actor(grains, None, None, 0.1))
+    show(right, grains_actor(grains, ~glued, None, None, 0.1), grains_actor(grains, glued, None, None, 0.2))
     if tubes is not None:
         right.AddActor(tubes)
         right.AddActor2D(colour_bar(force_colours, "normal force / its mean", width))
@@ -262,7 +306,7 @@ def main(grains_path, contacts_path, cell_path, picture, colour, width, title):
     right.AddActor2D(caption("contact forces", 0.03, 0.95, 20 * width // 1600))
     for renderer in (left, right):
         renderer.SetBackground(1, 1, 1)
-        renderer.AddActor(edges_actor(cell))
+        show(renderer, edges_actor(cell), *wall_actors(walls))
         window.AddRenderer(renderer)
     window.SetMultiSamples(8)
     window.SetSize(width, width * 9 // 16)
@@ -281,7 +325,7 @@ def main(grains_path, contacts_path, cell_path, picture, colour, width, title):
 
 
 if __name__ == "__main__":
-    code = main(*sys.argv[1:6], int(sys.argv[6]), sys.argv[7])
+    code = main(*sys.argv[1:4], int(sys.argv[4]), sys.argv[5])
     sys.stderr.flush()
     # Without VTK's own clean-up, which looks for the X server that is not there.
     os._exit(code)

@@ -160,6 +160,25 @@ TEST(ForceChains, PlanesAreHatched) {
   EXPECT_LT(occurrences(floor.svg(), "L"), occurrences(before, "L") + 5);
 }
 
+TEST(ForceChains, CylindersAreHatchedCircles) {
+  Scenery drum = scenery({Vec<2>(5, 5)});
+  drum.sample.cell.periodic = {false, false};
+  drum.sample.planes.resize(1);
+  drum.sample.planes[0].point = Vec<2>(5, 5);
+  drum.sample.planes[0].radius = 4;
+  const std::string svg = drum.svg();
+  EXPECT_TRUE(well_formed(svg));
+  const std::string::size_type begin = svg.find("<g clip-path=\"url(#view)\"");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string group = svg.substr(begin, svg.find("</g>", begin) - begin);
+  const std::string circle = group.substr(0, group.find("/>"));
+  EXPECT_EQ(occurrences(circle, "L"), 96) << "96 sides, closed";
+  // Strokes lie outside of the circle, where no grain may be, one per half diameter of its length.
+  EXPECT_NEAR(occurrences(group, "L") - 96, 2 * 3.14159 * 4 / 0.5, 1);
+  drum.sample.planes[0].inside = false;
+  EXPECT_NE(svg, drum.svg());
+}
+
 TEST(ForceChains, IsWellFormedWhateverTheTitle) {
   Scenery pair = scenery({Vec<2>(5, 5), Vec<2>(6, 5)});
   pair.add(0, 1, Vec<2>(1, 0), 1);

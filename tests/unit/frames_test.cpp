@@ -1,8 +1,8 @@
 // Files of states for other programs: their numbers read back, by this test and by VTK itself, and their collections.
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
+#include <numbers>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "common/io/vtk.hpp"
 #include "src/frame_files.hpp"
 #include "tests/support/lattices.hpp"
+#include "tests/support/other_programs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet::test::frames_test {
@@ -147,8 +148,88 @@ TEST(Vtk, ContactsAndCell) {
   EXPECT_TRUE(array(vtp_contacts(snapshot_of(flat, none)), "force").empty());
 }
 
+/// Spheres in a box: a floor and a lid (outside of the sample), an oblique wall that cuts the cell's corner off, and a
+/// cylinder along y that turns.
+struct Walled {
+  State state;
+  double side;
+  Walled() {
+    Cell<3>& cell = state.sample.cell;
+    side = cell.box(0, 0);
+    cell.box = side * Mat<3>::Identity();
+    cell.rate.setZero();
+    cell.periodic = {true, true, false};
+    for (double& radius : state.sample.radius) radius = 0.2;
+    for (Vec<3>& x : state.sample.position) x = Vec<3>(0.5, 0.5, 0.1).cwiseProduct(x) + Vec<3>::Constant(1);
+    Plane<3> floor, lid, corner, cylinder;
+    floor.normal = Vec<3>::UnitZ();
+    floor.velocity = Vec<3>(0.5, 0, 0);
+    lid.point = Vec<3>(0, 0, side + 2);
+    lid.normal = -Vec<3>::UnitZ();
+    corner.point = Vec<3>(side / 2, 0, 0);
+    corner.normal = Vec<3>(1, 1, 1).normalized();
+    cylinder.point = Vec<3>(side / 2, 0, side / 2);
+    cylinder.axis = Vec<3>::UnitY();
+    cylinder.radius = 0.7;
+    cylinder.inside = false;
+    cylinder.spin = Vec<3>(0, 3, 0);
+    state.sample.planes = {floor, lid, corner, cylinder};
+  }
+};
+
+TEST(Vtk, WallsAreCutToTheSample) {
+  const Walled walled;
+  const std::string file = vtp_walls(walled.state.snapshot());
+  const std::vector<double> x = array(file, "Points"), j = array(file, "j"), ends = array(file, "offsets");
+  const std::vector<double> velocity = array(file, "velocity"), normal = array(file, "normal");
+  ASSERT_EQ(ends.size(), 3u + 96u);
+  EXPECT_EQ(std::vector<double>(ends.begin(), ends.begin() + 4), (std::vector<double>{4, 8, 11, 15}));
+  const double side = walled.side, grains = walled.state.sample.count();
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(x[3 * k + 2], 0, 1e-14);               // floor
+    EXPECT_NEAR(x[3 * (4 + k) + 2], side + 2, 1e-14);  // lid: as large as the shadow of the cell
+    for (int a = 0; a < 2; ++a)
+      for (const std::size_t corner : {k, 4 + k}) EXPECT_NEAR(std::abs(x[3 * corner + a] - side / 2), side / 2, 1e-14);
+  }
+  for (std::size_t k = 8; k < 11; ++k)  // corners of the oblique wall: side / 2 on one axis
+    EXPECT_NEAR(x[3 * k] + x[3 * k + 1] + x[3 * k + 2], side / 2, 1e-14);
+  for (std::size_t k = 11; k < x.size() / 3; ++k)
+    EXPECT_NEAR(std::hypot(x[3 * k] - side / 2, x[3 * k + 2] - side / 2), 0.7, 1e-14);
+  EXPECT_EQ(j[0], grains);
+  EXPECT_EQ(j[3], grains + 3);
+  EXPECT_EQ(velocity[0], 0.5);
+  for (std::size_t face = 3; face < ends.size(); ++face) {  // a surface that turns: w x R, and outside of it the grains
+    EXPECT_NEAR(Vec<3>(velocity[3 * face], velocity[3 * face + 1], velocity[3 * face + 2]).norm(), 3 * 0.7, 1e-13);
+    EXPECT_NEAR(velocity[3 * face] - 3 * 0.7 * normal[3 * face + 2], 0, 1e-13);
+  }
+  Sample<2> drum = test::square(3);
+  drum.planes.resize(2);
+  drum.planes[1].radius = 2;
+  const ContactColumns<2> none;
+  const std::vector<double> lines = array(vtp_walls(snapshot_of(drum, none)), "offsets");
+  EXPECT_EQ(lines, (std::vector<double>{2, 99}));  // a stretch and a closed circle
+}
+
+TEST(Vtk, GrainsOfRigidBodies) {
+  const State state;
+  Snapshot<3> snapshot = state.snapshot();
+  EXPECT_EQ(array(vtp_grains(snapshot), "body"), std::vector<double>(state.sample.position.size(), -1));
+  std::vector<RigidBody<3>> bodies(2);
+  bodies[0].turning = Turning::free;
+  bodies[0].mobility = Mat<3>::Identity();
+  bodies[1].mobility = Vec<3>::UnitZ().asDiagonal();
+  std::vector<int> body_of(state.sample.position.size(), -1);
+  body_of[1] = 0, body_of[2] = 1;
+  snapshot.bodies = bodies, snapshot.body_of = body_of;
+  const std::string file = vtp_grains(snapshot);
+  EXPECT_EQ(array(file, "body"), std::vector<double>(body_of.begin(), body_of.end()));
+  const std::vector<double> boundary = array(file, "boundary");
+  EXPECT_EQ(boundary[0] + boundary[1], 0);  // alone; in a clump
+  EXPECT_EQ(boundary[2], 1);                // in a wall
+}
+
 constexpr const char* vtk_script = R"(
-import sys, vtk, xml.etree.ElementTree as tree
+import vtk, xml.etree.ElementTree as tree
 from vtk.util.numpy_support import vtk_to_numpy
 def read(path):
     reader = vtk.vtkXMLPolyDataReader()
@@ -156,41 +237,57 @@ def read(path):
     reader.Update()
     return reader.GetOutput()
 folder = sys.argv[1] + '/'
-grains, contacts, cell = [read(folder + 'md_%s_000001.vtp' % part) for part in ('grains', 'contacts', 'cell')]
+parts = [read(folder + 'md_%s_000001.vtp' % part) for part in ('grains', 'contacts', 'cell', 'walls')]
+grains, contacts, cell, walls = parts
 radius = vtk_to_numpy(grains.GetPointData().GetArray('radius'))
 force = vtk_to_numpy(contacts.GetCellData().GetArray('force'))
 print(grains.GetNumberOfPoints(), grains.GetNumberOfVerts(), contacts.GetNumberOfLines(), cell.GetNumberOfLines())
 print(repr(float(radius.sum())), repr(float(force[:, 0].sum())), grains.GetPointData().GetArray('velocity').GetNumberOfComponents())
-print(len(tree.parse(folder + 'md_grains.pvd').getroot().find('Collection').findall('DataSet')))
+print(len(tree.parse(folder + 'md_walls.pvd').getroot().find('Collection').findall('DataSet')))
+print(int(vtk_to_numpy(cell.GetCellData().GetArray('periodic')).sum()), walls.GetNumberOfPolys())
+area = {}
+for k in range(walls.GetNumberOfCells()):
+    wall = walls.GetCellData().GetArray('j').GetTuple1(k)
+    face = walls.GetCell(k)
+    ids = vtk.vtkIdList()
+    for corner in range(face.GetNumberOfPoints()): ids.InsertNextId(face.GetPointId(corner))
+    normal = [0, 0, 0]
+    area[wall] = area.get(wall, 0) + vtk.vtkPolygon.ComputeArea(walls.GetPoints(), ids.GetNumberOfIds(), [ids.GetId(c) for c in range(ids.GetNumberOfIds())], normal)
+print(*[repr(area[wall]) for wall in sorted(area)])
 )";
 
 TEST(Vtk, IsReadByVtk) {
-  std::string python;  // the system's own has the system's packages, whatever comes first in PATH
-  for (const char* name : {"python3", "/usr/bin/python3"})
-    if (std::system((std::string(name) + " -c 'import vtk, numpy' >/dev/null 2>&1").c_str()) == 0) python = name;
-  if (python.empty()) GTEST_SKIP() << "python3-vtk9 is not installed: VTK did not read the files";
-  const State state;
+  const Walled walled;
+  const State& state = walled.state;
   const TemporaryFolder folder;
   FrameFiles(folder.file("md"), {"paraview"}, state.sample.material)
       .write(Frame{10, {0, 2.5}, {0, 10}}, state.snapshot());
-  write_file(folder.file("read.py"), vtk_script);
-  const std::string command =
-      python + " " + folder.file("read.py") + " " + folder.path() + " > " + folder.file("said") + " 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder.file("said"));
-  std::istringstream said(read_file(folder.file("said")));
+  const std::optional<std::string> text = said_by_python("vtk, numpy", vtk_script, folder);
+  if (!text) GTEST_SKIP() << "python3-vtk9 is not installed: VTK did not read the files";
+  std::istringstream said(*text);
   double radius = 0, force = 0, sum_radius, sum_force;
-  std::size_t points, verts, lines, edges, components, sets;
-  said >> points >> verts >> lines >> edges >> sum_radius >> sum_force >> components >> sets;
+  std::size_t points, verts, lines, edges, components, sets, periodic, polygons;
+  said >> points >> verts >> lines >> edges >> sum_radius >> sum_force >> components >> sets >> periodic >> polygons;
   EXPECT_EQ(points, state.sample.position.size());
   EXPECT_EQ(verts, points);
   EXPECT_EQ(lines, state.contacts.size());
   EXPECT_EQ(edges, 12u);
   EXPECT_EQ(components, 3u);
   EXPECT_EQ(sets, 2u);
+  EXPECT_EQ(periodic, 8u);  // four edges along each of two directions
+  EXPECT_EQ(polygons, 3u + 96u);
   for (double r : state.sample.radius) radius += r;
   for (const Vec<3>& f : state.contacts.force) force += f.x();
   EXPECT_NEAR(sum_radius, radius, 1e-12 * radius);
   EXPECT_NEAR(sum_force, force, 1e-10);
+  // Areas, in closed form: squares, an equilateral triangle with corners at side / 2, and a tube of 96 sides.
+  const double side = walled.side;
+  for (const double exact : {side * side, side * side, std::sqrt(3.0) / 8 * side * side,
+                             96 * 2 * 0.7 * std::sin(std::numbers::pi / 96) * side}) {
+    double area = 0;
+    said >> area;
+    EXPECT_NEAR(area, exact, 1e-12 * exact);
+  }
 }
 
 TEST(ParticleText, ExtendedXyz) {

@@ -10,10 +10,12 @@
 
 #include "common/core/error.hpp"
 #include "common/core/random.hpp"
+#include "common/io/particle_text.hpp"
 #include "common/measure/coordination.hpp"
 #include "common/measure/numbers.hpp"
 #include "common/measure/stress.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/other_programs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet::test::lammps_test {
@@ -167,6 +169,47 @@ void expect_round_trip() {
 
 TEST(Lammps, RoundTrip2D) { expect_round_trip<2>(); }
 TEST(Lammps, RoundTrip3D) { expect_round_trip<3>(); }
+
+// LAMMPS itself reads the data file and writes what it read, in 17 digits; then it reads that back as our own dump.
+TEST(Lammps, IsReadByLammps) {
+  const TemporaryFolder folder;
+  const Sample<3> sample = random_sample<3>();
+  const ContactColumns<3> none;
+  write_lammps_data<3>(folder.file("a.data"), sample);
+  write_file(folder.file("a.dump"), lammps_dump(snapshot_of(sample, none), 42));
+  const std::string head = "units lj\natom_style sphere\nboundary p p p\ncomm_modify cutoff 2\nread_data a.data\n";
+  const std::string columns =
+      "id type diameter mass x y z vx vy vz omegax omegay omegaz modify sort id format float %.17g\n";
+  if (!run_lammps(head + "write_dump all custom read.txt " + columns +
+                      "set group all x 0.1 y 0.1 z 0.1 vx 0 vy 0 vz 0\n"
+                      "read_dump a.dump 42 x y z vx vy vz box yes\nwrite_dump all custom dump.txt " +
+                      columns,
+                  folder))
+    GTEST_SKIP() << "lammps is not installed: LAMMPS did not read the files";
+  for (const char* file : {"read.txt", "dump.txt"}) {
+    std::istringstream text(read_file(folder.file(file)));
+    std::string line;
+    for (int k = 0; k < 5; ++k) std::getline(text, line);
+    EXPECT_EQ(line, "ITEM: BOX BOUNDS xy xz yz pp pp pp");
+    for (int k = 0; k < 4; ++k) std::getline(text, line);
+    const Mat<3> inverse = sample.cell.box.inverse();
+    for (int i = 0; i < sample.count(); ++i) {
+      double id, type, diameter, mass;
+      Vec<3> x, v, w;
+      text >> id >> type >> diameter >> mass >> x[0] >> x[1] >> x[2] >> v[0] >> v[1] >> v[2] >> w[0] >> w[1] >> w[2];
+      ASSERT_TRUE(text) << file << ", grain " << i;
+      EXPECT_EQ(id, i + 1);
+      EXPECT_EQ(type, 1);
+      EXPECT_EQ(v, sample.velocity[i]) << file;
+      EXPECT_EQ(w, sample.spin[i]);
+      EXPECT_DOUBLE_EQ(diameter, 2 * sample.radius[i]);
+      EXPECT_DOUBLE_EQ(mass, sample.mass[i]);
+      // LAMMPS wraps positions by way of fractions of the cell: some roundings of lengths of 5.
+      const Vec<3> moved = inverse * (x - sample.position[i]);
+      for (int a = 0; a < 3; ++a) EXPECT_NEAR(moved[a], std::round(moved[a]), 1e-14) << file;
+    }
+  }
+}
 
 /// Path of a shared packing, or nothing when this machine does not have them.
 std::string shared_packing(const std::string& name) {
