@@ -46,7 +46,7 @@ for name in "${names[@]}"; do
     for study in $("$bin/src/galet" study --list | awk 'NR > 1 && NF == 0 { exit } NR > 1 { print $1 }'); do
       out=benchmarks/results/studies/$study
       "$bin/src/galet" study "$study" $size --jobs 2 --out "$out"
-      rm -f "$out"/*.png
+      rm -rf "$out"/*.png "$out/rows"  # tables and scenes say the same
       benchmarks/machine.sh >"$out/machine.txt"
     done
     benchmarks/reproduction.sh >docs/reproduction.md
@@ -94,10 +94,10 @@ for name in "${names[@]}"; do
       if [ -f $speeds ]; then "$bin/benchmarks/md_accuracy" "$out" $speeds; else "$bin/benchmarks/md_accuracy" "$out"; fi ;;
     work_precision)
       "$bin/benchmarks/work_precision" "$out"
-      rm -f "$out"/*.png ;;
+      rm -rf "$out"/*.png "$out/rows"  # tables and scenes say the same ;;
     rigid_limit)
       "$bin/benchmarks/rigid_limit" "$out"
-      rm -f "$out"/*.png ;;
+      rm -rf "$out"/*.png "$out/rows"  # tables and scenes say the same ;;
     verify)
       # A case that fails is a result too.
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
