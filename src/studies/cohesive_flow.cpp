@@ -52,7 +52,7 @@ void report_engine(StudyReport& report, const std::vector<StudyRow>& rows, Engin
 Figure law_figure(const std::vector<StudyRow>& rows, Observable observable) {
   const bool friction = observable == Observable::mu_star;
   Figure figure{friction ? "Friction law of cohesive disks" : "Dilatancy law of cohesive disks",
-                "inertial number\u00a0{/:Italic I}",
+                "inertial number {/:Italic I}",
                 friction ? "mu*" : "Phi",
                 true,
                 false,

@@ -45,7 +45,7 @@ Figure friction_figure(const std::vector<StudyRow>& rows, Observable observable)
   const bool friction = observable == Observable::mu_star;
   Figure figure{
       friction ? "Friction law against the friction of contacts" : "Dilatancy law against the friction of contacts",
-      "inertial number\u00a0{/:Italic I}",
+      "inertial number {/:Italic I}",
       friction ? "mu*" : "Phi",
       true,
       false,

@@ -55,7 +55,7 @@ void report_volume(StudyReport& report, const std::vector<StudyRow>& rows, Engin
 Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, const Series& band) {
   const bool friction = observable == Observable::mu_star;
   Figure figure{friction ? "Friction law of sheared disks" : "Dilatancy law of sheared disks",
-                "inertial number\u00a0{/:Italic I}",
+                "inertial number {/:Italic I}",
                 friction ? "mu*" : "Phi",
                 true,
                 false,

@@ -48,7 +48,7 @@ void report_engine(StudyReport& report, const std::vector<StudyRow>& rows, Engin
 
 Figure restitution_figure(const std::vector<StudyRow>& rows, double friction, Observable observable) {
   Figure figure{fmt::format("Effect of restitution, mu = {:g}", friction),
-                "inertial number\u00a0{/:Italic I}",
+                "inertial number {/:Italic I}",
                 observable == Observable::mu_star ? "mu*" : "Phi",
                 true,
                 false,

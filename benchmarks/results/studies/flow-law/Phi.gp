@@ -1,7 +1,7 @@
 # gnuplot script; run it in its own folder: gnuplot 'Phi.gp'
 set encoding utf8
 set title 'Dilatancy law of sheared disks (quick size)'
-set xlabel 'inertial number {/:Italic I}'
+set xlabel 'inertial number {/:Italic I}'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
