@@ -120,27 +120,30 @@ CsvTable crossover_table(const std::vector<JudgedClass>& judged) {
   return table;
 }
 
+/// Name of a class in gnuplot's notation.
+std::string title_of(const SceneClass& which) {
+  const std::size_t mark = which.name.find('_');
+  return mark == std::string::npos ? which.name
+                                   : which.name.substr(0, mark) + ", {/:Italic I} = " + which.name.substr(mark + 1);
+}
+
 void draw(const SceneClass& which, const std::vector<JudgedRow>& rows, const std::string& folder) {
-  Figure figure{.title = which.name + ": " + which.question,
+  Figure figure{.title = title_of(which),
                 .x_label = fmt::format("processor seconds per {}", which.extent),
                 .y_label = which.truth == Truth::exact ? "error" : "error / limit",
                 .log_x = true,
                 .log_y = true,
                 .series = {}};
-  std::map<std::string, Series> groups;
-  for (const JudgedRow& each : rows) {
-    const Setting& s = each.row.setting;
-    const std::string label = s.engine == EngineKind::md
-                                  ? fmt::format("md, {:g} steps per contact", s.steps_per_contact)
-                                  : fmt::format("cd, tolerance {:.0e}", s.tolerance);
-    Series& series = groups[label];
-    series.label = label;
-    series.x.push_back(each.cost), series.y.push_back(each.error);
-    if (which.truth == Truth::limit) series.y_error.push_back(std::min(each.uncertainty, 0.9 * each.error));
-  }
-  for (auto& [label, series] : groups) figure.series.push_back(series);
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
-    Series front{.label = engine_name(engine) + " front", .x = {}, .y = {}, .y_error = {}, .line = true};
+    Series all{.label = engine_name(engine), .x = {}, .y = {}, .y_error = {}};
+    for (const JudgedRow& each : rows) {
+      if (each.row.setting.engine != engine) continue;
+      all.x.push_back(each.cost), all.y.push_back(each.error);
+      // Down to a tenth of the value: an error has no room below zero on this axis.
+      if (which.truth == Truth::limit) all.y_error.push_back(std::min(each.uncertainty, 0.9 * each.error));
+    }
+    figure.series.push_back(all);
+    Series front{.label = engine_name(engine) + ", front", .x = {}, .y = {}, .y_error = {}, .line = true};
     for (const JudgedRow* each : front_of(rows, engine)) front.x.push_back(each->cost), front.y.push_back(each->error);
     figure.series.push_back(front);
   }
