@@ -89,14 +89,22 @@ CsvTable error_table(const std::vector<JudgedClass>& judged) {
 /// Errors at which the cheaper engine changes, scanned from 1 downwards, 100 to a decade.
 CsvTable crossover_table(const std::vector<JudgedClass>& judged) {
   CsvTable table;
-  table.comments = {"from, to: range of errors; ratio: least and largest cost of the dearer engine over the cheaper's"};
-  for (const char* name : {"class", "cheaper", "from", "to", "least_ratio", "largest_ratio"})
+  table.comments = {
+      "from, to: range of errors; ratio: least and largest cost of the dearer engine over the cheaper's; noise: at "
+      "`to` "
+      "no row that is used is farther from the limit than its noise, and the end of the range says nothing"};
+  for (const char* name : {"class", "cheaper", "from", "to", "least_ratio", "largest_ratio", "noise"})
     table.columns.push_back({name, ""});
   for (const auto& [which, rows] : judged) {
     std::string now;
     double from = 0, last = 0, least = 0, largest = 0;
     const auto close = [&] {
-      if (!now.empty()) table.rows.push_back({which.name, now, cell(from), cell(last), cell(least), cell(largest)});
+      if (now.empty()) return;
+      const JudgedRow *soft = cheapest(rows, EngineKind::md, last), *rigid = cheapest(rows, EngineKind::cd, last);
+      const bool noise = (!soft || soft->noise) && (!rigid || rigid->noise);
+      const auto ratio = [](double value) { return value > 0 ? cell(value) : CsvCell(); };
+      table.rows.push_back(
+          {which.name, now, cell(from), cell(last), ratio(least), ratio(largest), std::string(noise ? "noise" : "")});
     };
     for (int k = 0; k <= 1200; ++k) {
       const double error = std::pow(10, -k / 100.0);
