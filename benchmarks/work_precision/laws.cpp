@@ -121,7 +121,7 @@ CsvTable cost_laws(const std::vector<JudgedClass>& judged) {
     const double usual = usual_steps(rows);
     // A column at rest costs the time that its dashpots need, which falls as kappa^-1/2.
     const std::string of_kappa =
-        which.name == "column" ? "0, and a logarithm" : "1/2: steps of tau_c / n (less where grains fly free)";
+        which.name == "column" ? "0 and a logarithm" : "1/2: steps of tau_c / n (less where grains fly free)";
     add_law(table, which.name, "md: kappa",
             costs(rows, [&](const Setting& s) { return s.steps_per_contact == usual ? s.kappa : 0; }), of_kappa);
     double tightest = 1, finest = 1e9;
@@ -132,7 +132,7 @@ CsvTable cost_laws(const std::vector<JudgedClass>& judged) {
     if (!steady)
       add_law(table, which.name, "cd: dt",
               costs(rows, [&](const Setting& s) { return s.tolerance == middle ? s.dt : 0; }),
-              "-1: steps, less sweeps");
+              "-1 by steps; less by sweeps");
     for (const JudgedRow& each : rows)
       if (each.row.setting.engine == EngineKind::cd && each.row.setting.tolerance == 1e-2)
         finest = std::min(finest, each.row.setting.dt);
