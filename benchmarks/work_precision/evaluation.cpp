@@ -89,14 +89,22 @@ CsvTable error_table(const std::vector<JudgedClass>& judged) {
 /// Errors at which the cheaper engine changes, scanned from 1 downwards, 100 to a decade.
 CsvTable crossover_table(const std::vector<JudgedClass>& judged) {
   CsvTable table;
-  table.comments = {"from, to: range of errors; ratio: least and largest cost of the dearer engine over the cheaper's"};
-  for (const char* name : {"class", "cheaper", "from", "to", "least_ratio", "largest_ratio"})
+  table.comments = {
+      "from, to: range of errors; ratio: least and largest cost of the dearer engine over the cheaper's; noise: at "
+      "`to` "
+      "no row that is used is farther from the limit than its noise, and the end of the range says nothing"};
+  for (const char* name : {"class", "cheaper", "from", "to", "least_ratio", "largest_ratio", "noise"})
     table.columns.push_back({name, ""});
   for (const auto& [which, rows] : judged) {
     std::string now;
     double from = 0, last = 0, least = 0, largest = 0;
     const auto close = [&] {
-      if (!now.empty()) table.rows.push_back({which.name, now, cell(from), cell(last), cell(least), cell(largest)});
+      if (now.empty()) return;
+      const JudgedRow *soft = cheapest(rows, EngineKind::md, last), *rigid = cheapest(rows, EngineKind::cd, last);
+      const bool noise = (!soft || soft->noise) && (!rigid || rigid->noise);
+      const auto ratio = [](double value) { return value > 0 ? cell(value) : CsvCell(); };
+      table.rows.push_back(
+          {which.name, now, cell(from), cell(last), ratio(least), ratio(largest), std::string(noise ? "noise" : "")});
     };
     for (int k = 0; k <= 1200; ++k) {
       const double error = std::pow(10, -k / 100.0);
@@ -120,27 +128,30 @@ CsvTable crossover_table(const std::vector<JudgedClass>& judged) {
   return table;
 }
 
+/// Name of a class in gnuplot's notation.
+std::string title_of(const SceneClass& which) {
+  const std::size_t mark = which.name.find('_');
+  return mark == std::string::npos ? which.name
+                                   : which.name.substr(0, mark) + ", {/:Italic I} = " + which.name.substr(mark + 1);
+}
+
 void draw(const SceneClass& which, const std::vector<JudgedRow>& rows, const std::string& folder) {
-  Figure figure{.title = which.name + ": " + which.question,
+  Figure figure{.title = title_of(which),
                 .x_label = fmt::format("processor seconds per {}", which.extent),
                 .y_label = which.truth == Truth::exact ? "error" : "error / limit",
                 .log_x = true,
                 .log_y = true,
                 .series = {}};
-  std::map<std::string, Series> groups;
-  for (const JudgedRow& each : rows) {
-    const Setting& s = each.row.setting;
-    const std::string label = s.engine == EngineKind::md
-                                  ? fmt::format("md, {:g} steps per contact", s.steps_per_contact)
-                                  : fmt::format("cd, tolerance {:.0e}", s.tolerance);
-    Series& series = groups[label];
-    series.label = label;
-    series.x.push_back(each.cost), series.y.push_back(each.error);
-    if (which.truth == Truth::limit) series.y_error.push_back(std::min(each.uncertainty, 0.9 * each.error));
-  }
-  for (auto& [label, series] : groups) figure.series.push_back(series);
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
-    Series front{.label = engine_name(engine) + " front", .x = {}, .y = {}, .y_error = {}, .line = true};
+    Series all{.label = engine_name(engine), .x = {}, .y = {}, .y_error = {}};
+    for (const JudgedRow& each : rows) {
+      if (each.row.setting.engine != engine) continue;
+      all.x.push_back(each.cost), all.y.push_back(each.error);
+      // Down to a tenth of the value: an error has no room below zero on this axis.
+      if (which.truth == Truth::limit) all.y_error.push_back(std::min(each.uncertainty, 0.9 * each.error));
+    }
+    figure.series.push_back(all);
+    Series front{.label = engine_name(engine) + ", front", .x = {}, .y = {}, .y_error = {}, .line = true};
     for (const JudgedRow* each : front_of(rows, engine)) front.x.push_back(each->cost), front.y.push_back(each->error);
     figure.series.push_back(front);
   }

@@ -100,7 +100,10 @@ void add_order(CsvTable& table, const SceneClass& which, const std::vector<Judge
                     : exact         ? CsvCell(short_number(at->second.value, 2))
                                     : CsvCell(with_error(at->second)));
   }
-  cells.push_back(points.size() >= 2 ? CsvCell(with_error(exponent(points))) : CsvCell(std::string("no effect seen")));
+  // Two points make a line whatever they are.
+  cells.push_back(points.size() > 2    ? CsvCell(with_error(exponent(points)))
+                  : points.size() == 0 ? CsvCell(std::string("no effect seen"))
+                                       : CsvCell(std::string("too few above noise")));
   const auto engine = [](const std::optional<EngineLimit>& of) {
     return !of ? std::string("-") : of->on_line ? with_error(of->value) : std::string("not on a line");
   };
@@ -117,15 +120,19 @@ CsvTable cost_laws(const std::vector<JudgedClass>& judged) {
   for (const auto& [which, rows] : judged) {
     const double usual = usual_steps(rows);
     // A column at rest costs the time that its dashpots need, which falls as kappa^-1/2.
-    const std::string of_kappa = which.name == "column" ? "0, and a logarithm" : "1/2: steps of tau_c / n";
+    const std::string of_kappa =
+        which.name == "column" ? "0 and a logarithm" : "1/2: steps of tau_c / n (less where grains fly free)";
     add_law(table, which.name, "md: kappa",
             costs(rows, [&](const Setting& s) { return s.steps_per_contact == usual ? s.kappa : 0; }), of_kappa);
     double tightest = 1, finest = 1e9;
     for (const JudgedRow& each : rows)
       if (each.row.setting.engine == EngineKind::cd) tightest = std::min(tightest, each.row.setting.tolerance);
     const double middle = which.truth == Truth::limit && which.name != "gas" ? 1e-3 : tightest;
-    add_law(table, which.name, "cd: dt",
-            costs(rows, [&](const Setting& s) { return s.tolerance == middle ? s.dt : 0; }), "-1: steps, less sweeps");
+    const bool steady = which.name == "column" || which.name == "packing";  // rest takes so many steps, whatever dt
+    if (!steady)
+      add_law(table, which.name, "cd: dt",
+              costs(rows, [&](const Setting& s) { return s.tolerance == middle ? s.dt : 0; }),
+              "-1 by steps; less by sweeps");
     for (const JudgedRow& each : rows)
       if (each.row.setting.engine == EngineKind::cd && each.row.setting.tolerance == 1e-2)
         finest = std::min(finest, each.row.setting.dt);
