@@ -117,6 +117,7 @@ def colour_bar(table, title, width):
     bar.SetHeight(0.09)
     bar.SetTextPositionToPrecedeScalarBar()
     bar.UnconstrainedFontSizeOn()
+    bar.SetVerticalTitleSeparation(20 * width // 1600)
     for text, size in [(bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 17)]:
         text.SetColor(0.1, 0.1, 0.1)
         text.SetFontSize(size * width // 1600)
@@ -263,9 +264,9 @@ def look(renderer):
     camera.SetViewUp(0, 0, 1)
     camera.SetViewAngle(22)
     renderer.ResetCamera()
-    camera.Zoom(1.08)
+    camera.Zoom(1.0)
     centre = camera.GetFocalPoint()
-    span = camera.GetDistance() * 0.02
+    span = camera.GetDistance() * 0.025
     camera.SetFocalPoint(centre[0], centre[1], centre[2] - span)  # room for the bar below, the title above
     renderer.ResetCameraClippingRange()
 
