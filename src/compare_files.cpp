@@ -43,7 +43,7 @@ Figure error_cost_figure(const Comparison& comparison) {
 }
 
 Figure history_figure(const Comparison& comparison) {
-  Figure figure{"Stress ratio", "strain", "mu*", false, false, {}};
+  Figure figure{"Stress ratio", "strain", "μ*", false, false, {}};
   for (const CompareRow& row : comparison.rows) {
     if (!row.plan.reference || !row.usable()) continue;
     Series series;

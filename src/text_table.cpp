@@ -22,6 +22,9 @@ std::size_t width(const std::string& text) {
 std::string with_error(const Estimate& estimate) {
   if (!std::isfinite(estimate.value)) return "-";
   if (!(estimate.error > 0) || !std::isfinite(estimate.error)) return fmt::format("{:.4f}", estimate.value);
+  // An error far below the value: six digits of the value, and the error as it is.
+  if (estimate.error < 1e-6 * std::abs(estimate.value))
+    return fmt::format("{:.6g} ±{:.1g}", estimate.value, estimate.error);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(estimate.error))), 0, 9);
   return fmt::format("{:.{}f} ±{:.{}f}", estimate.value, decimals, estimate.error, decimals);
 }

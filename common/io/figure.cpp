@@ -36,6 +36,14 @@ bool drawable(const Figure& figure, const Series& series, std::size_t k) {
   return std::isfinite(x) && std::isfinite(y) && (!figure.log_x || x > 0) && (!figure.log_y || y > 0);
 }
 
+/// Points that have a value but lie where a logarithmic axis shows nothing.
+std::size_t hidden_count(const Figure& figure, const Series& series) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < series.x.size(); ++k)
+    count += std::isfinite(series.x[k]) && std::isfinite(series.y[k]) && !drawable(figure, series, k) ? 1 : 0;
+  return count;
+}
+
 std::size_t drawable_count(const Figure& figure, const Series& series) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < series.x.size(); ++k) count += drawable(figure, series, k) ? 1 : 0;
@@ -90,10 +98,24 @@ Range log_range(const Figure& figure, bool of_x) {
   return range;
 }
 
+/// Numbers that need a power of ten are too wide for the usual marks along x: at most five of them, at round values.
+std::string sparse_marks(const Figure& figure, char axis) {
+  if (axis != 'x') return "";
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Series& series : figure.series)
+    for (std::size_t k = 0; k < series.x.size(); ++k)
+      if (drawable(figure, series, k)) low = std::min(low, series.x[k]), high = std::max(high, series.x[k]);
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!(high > low) || (largest >= 1e-3 && largest < 1e6)) return "";
+  const double step = (high - low) / 4, power = std::pow(10, std::floor(std::log10(step)));
+  const double round = step <= 2 * power ? 2 : step <= 5 * power ? 5 : 10;
+  return fmt::format("set xtics {}\n", round * power);
+}
+
 std::string axis_text(const Figure& figure, char axis) {
   const bool of_x = axis == 'x', logarithmic = of_x ? figure.log_x : figure.log_y;
   std::string text = fmt::format("set {}label {}\n", axis, quote(of_x ? figure.x_label : figure.y_label));
-  if (!logarithmic) return text;
+  if (!logarithmic) return text + sparse_marks(figure, axis);
   const Range range = log_range(figure, of_x);
   return text + fmt::format("set logscale {0}\nset format {0} '10^{{%L}}'\nset m{0}tics 10\nset {0}range [{1}:{2}]\n",
                             axis, range.low, range.high);
@@ -113,7 +135,7 @@ std::string clause(const Figure& figure, std::size_t index, const std::string& d
   const bool errors = !series.y_error.empty();
   std::string style = series.line ? (errors ? "yerrorlines" : "linespoints") : (errors ? "yerrorbars" : "points");
   std::string title = series.label;
-  const std::size_t hidden = series.x.size() - drawable_count(figure, series);
+  const std::size_t hidden = hidden_count(figure, series);
   if (hidden > 0) title += fmt::format(" ({} off the axes)", hidden);
   const std::size_t look = index % colours.size();
   if (series.band)
@@ -132,7 +154,8 @@ std::string script_text(const Figure& figure, const std::string& name) {
                   quote(name + ".gp"), quote(figure.title));
   text += axis_text(figure, 'x') + axis_text(figure, 'y');
   const auto room = [](bool logarithmic) { return logarithmic ? "0, 0" : "graph 0.03, graph 0.03"; };
-  // Room beside the points themselves: without "noextend" ranges first grow to the next mark, and the room adds to that.
+  // Room beside the points themselves: without "noextend" ranges first grow to the next mark, and the room adds to
+  // that.
   text += "set autoscale noextend\n";
   text += fmt::format("set offsets {}, {}\n", room(figure.log_x), room(figure.log_y));
   text += "set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1\nset border linewidth 1.2\n";

@@ -105,25 +105,25 @@ def colours(stops, low, high):
     return table
 
 
-def colour_bar(table, title, width):
+def colour_bar(table, width):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
-    bar.SetTitle(title)
+    bar.SetTitle("")  # a caption of its own: VTK sets a title too close to the numbers
     bar.SetNumberOfLabels(5)
     bar.SetLabelFormat("%-#.3g")
     bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.2, 0.025)
+    bar.SetPosition(0.2, 0.045)
     bar.SetWidth(0.6)
-    bar.SetHeight(0.09)
+    bar.SetHeight(0.06)
     bar.SetTextPositionToPrecedeScalarBar()
     bar.UnconstrainedFontSizeOn()
-    for text, size in [(bar.GetTitleTextProperty(), 20), (bar.GetLabelTextProperty(), 17)]:
-        text.SetColor(0.1, 0.1, 0.1)
-        text.SetFontSize(size * width // 1600)
-        set_font(text)
-        text.ItalicOff()
-        text.BoldOff()
-        text.ShadowOff()
+    text = bar.GetLabelTextProperty()
+    text.SetColor(0.1, 0.1, 0.1)
+    text.SetFontSize(17 * width // 1600)
+    set_font(text)
+    text.ItalicOff()
+    text.BoldOff()
+    text.ShadowOff()
     return bar
 
 
@@ -135,6 +135,12 @@ def caption(text, x, y, size):
     actor.GetTextProperty().SetFontSize(size)
     set_font(actor.GetTextProperty())
     actor.GetTextProperty().SetColor(0.1, 0.1, 0.1)
+    return actor
+
+
+def below_bar(text, width):
+    actor = caption(text, 0.5, 0.012, 20 * width // 1600)
+    actor.GetTextProperty().SetJustificationToCentered()
     return actor
 
 
@@ -263,9 +269,9 @@ def look(renderer):
     camera.SetViewUp(0, 0, 1)
     camera.SetViewAngle(22)
     renderer.ResetCamera()
-    camera.Zoom(1.08)
+    camera.Zoom(1.0)
     centre = camera.GetFocalPoint()
-    span = camera.GetDistance() * 0.02
+    span = camera.GetDistance() * 0.025
     camera.SetFocalPoint(centre[0], centre[1], centre[2] - span)  # room for the bar below, the title above
     renderer.ResetCameraClippingRange()
 
@@ -294,12 +300,14 @@ def main(folder, picture, colour, width, title):
     left.SetViewport(0, 0, 0.5, 1)
     right.SetViewport(0.5, 0, 1, 1)
     show(left, grains_actor(grains, ~glued, values, grain_colours, 1.0), grains_actor(grains, glued, None, None, 0.35))
-    left.AddActor2D(colour_bar(grain_colours, label, width))
+    left.AddActor2D(colour_bar(grain_colours, width))
+    left.AddActor2D(below_bar(label, width))
     tubes = tubes_actor(contacts, diameter, force_colours)
     show(right, grains_actor(grains, ~glued, None, None, 0.1), grains_actor(grains, glued, None, None, 0.2))
     if tubes is not None:
         right.AddActor(tubes)
-        right.AddActor2D(colour_bar(force_colours, "normal force / its mean", width))
+        right.AddActor2D(colour_bar(force_colours, width))
+        right.AddActor2D(below_bar("normal force / its mean", width))
     else:
         right.AddActor2D(caption("no contact forces", 0.38, 0.06, 22 * width // 1600))
     left.AddActor2D(caption(title, 0.03, 0.95, 23 * width // 1600))

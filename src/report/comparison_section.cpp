@@ -54,6 +54,12 @@ std::string limits_table(const Json& comparison) {
 
 std::string notes(const Json& comparison) {
   std::string html;
+  if (comparison.value("shortened", false))
+    html +=
+        "<p class=\"warning\">A shortened comparison (--short): few grains, short averages, one state. A first look, "
+        "not a result.</p>\n";
+  if (comparison.value("interrupted", false))
+    html += "<p class=\"warning\">The comparison was interrupted: some rows are missing.</p>\n";
   for (const Json& note : comparison.value("notes", Json::array()))
     if (note.is_string()) html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(note.get<std::string>()));
   for (const Json& row : comparison.value("rows", Json::array())) {

@@ -86,10 +86,10 @@ std::string averages_table(const EngineRun& run) {
     const bool zero = mean.value == 0 && !(mean.error > 0) && number(last, name) == 0;
     if (zero) continue;  // quantities that the scene doesn't have
     const double time = number(entry, "autocorrelation_time");
+    const bool said = mean.error > 1e-12 * std::abs(mean.value);  // below that it is rounding
     correlated = correlated || std::isfinite(time);
     rows.push_back({html_symbol(name) + unit_of(run, name), short_number(mean.value, 5),
-                    mean.error > 0 ? "± " + short_number(mean.error, 2) : "-", short_number(time, 2),
-                    value(last, name, 5)});
+                    said ? "± " + short_number(mean.error, 2) : "-", short_number(time, 2), value(last, name, 5)});
     if (!correlated) rows.back().erase(rows.back().begin() + 3);
   }
   if (rows.empty()) return "";

@@ -140,28 +140,35 @@ std::vector<NamedFigure> series_figures(const EngineRun& run) {
 std::vector<NamedFigure> profile_figures(const EngineRun& run) {
   if (!run.profile) return {};
   const std::string against = run.profile->find("r") ? "r" : "y";
-  return draw_all({{"profile_velocity",
-                    "Velocity",
-                    "velocity",
-                    {"v_x", "v_y", "v_z", "v_r", "v_theta"},
-                    false,
-                    "Mean over the grains of a layer."},
-                   {"profile_rate", "Shear rate", "shear rate", {"shear_rate"}, false, ""},
-                   {"profile_phi", "Solid fraction", "Φ", {"Phi"}, false, "Grains are cut exactly at the layers."},
-                   {"profile_stress",
-                    "Stress",
-                    "σ",
-                    {"sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_rr", "sigma_rtheta", "sigma_thetatheta"},
-                    false,
-                    "Contact part. Positive in compression."},
-                   {"profile_temperature", "Granular temperature", "T", {"T"}, false, ""},
-                   {"profile_mu",
-                    "Stress ratio and inertial number",
-                    "μ*, I",
-                    {"mu_star", "I"},
-                    false,
-                    "Of the stress across the layers."}},
-                  *run.profile, against, true);
+  std::vector<NamedFigure> figures =
+      draw_all({{"profile_velocity",
+                 "Velocity",
+                 "velocity",
+                 {"v_x", "v_y", "v_z", "v_r", "v_theta"},
+                 false,
+                 "Mean over the grains of a layer."},
+                {"profile_rate", "Shear rate", "shear rate", {"shear_rate"}, false, ""},
+                {"profile_phi", "Solid fraction", "Φ", {"Phi"}, false, "Grains are cut exactly at the layers."},
+                {"profile_stress",
+                 "Stress",
+                 "σ",
+                 {"sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_rr", "sigma_rtheta", "sigma_thetatheta"},
+                 false,
+                 "Contact part. Positive in compression."},
+                {"profile_temperature", "Granular temperature", "T", {"T"}, false, ""},
+                {"profile_mu",
+                 "Stress ratio and inertial number",
+                 "μ*, I",
+                 {"mu_star", "I"},
+                 false,
+                 "Of the stress across the layers."}},
+               *run.profile, against, true);
+  // Layers may be cut along any direction, whatever their column is called.
+  for (NamedFigure& figure : figures) {
+    const std::string label = figure.figure.y_label;
+    figure.figure.y_label = (against == "r" ? "distance from the axis" : "place across the layers") + label.substr(1);
+  }
+  return figures;
 }
 
 namespace {

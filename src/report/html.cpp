@@ -161,7 +161,8 @@ table { border-collapse: collapse; font-size: 13.5px; margin: 6px 0 14px; }
 th { text-align: left; border-bottom: 1.5px solid #888; padding: 3px 14px 3px 0; vertical-align: bottom; }
 td { border-bottom: 1px solid #e2e2e2; padding: 3px 14px 3px 0; vertical-align: top; }
 table.numbers th:not(:first-child), table.numbers td:not(:first-child) { text-align: right;
-       font-variant-numeric: tabular-nums; white-space: nowrap; }
+       font-variant-numeric: tabular-nums; }
+table.numbers td { white-space: nowrap; }
 table.said td:nth-child(2), table.said th:nth-child(2) { text-align: right; white-space: nowrap;
        font-variant-numeric: tabular-nums; }
 td.from { color: #555; }

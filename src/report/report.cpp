@@ -26,12 +26,15 @@ std::string contents(const RunFolder& folder) {
   return fmt::format("<nav>{}</nav>\n", links);
 }
 
+std::string size_text(double bytes) {
+  if (bytes < 1e4) return fmt::format("{:.0f} B", bytes);
+  return bytes < 1e6 ? fmt::format("{:.0f} kB", bytes / 1e3) : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
 std::string files_section(const RunFolder& folder) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, bytes] : folder.files)
-    if (name != "report.html")
-      rows.push_back({escaped(name), bytes < 10000 ? fmt::format("{} B", bytes)
-                                                   : fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6)});
+    if (name != "report.html") rows.push_back({escaped(name), size_text(static_cast<double>(bytes))});
   return "<h2 id=\"files\">Files of the folder</h2>\n" + table({"file", "size"}, rows, "numbers");
 }
 

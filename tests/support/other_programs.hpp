@@ -36,6 +36,7 @@ inline bool run_lammps(const std::string& script, const TemporaryFolder& folder)
   if (end.found) {
     EXPECT_EQ(end.code, 0) << end.messages << file_bytes(folder.file("log.lammps"));
   }
+  EXPECT_TRUE(!end.found || end.code == 0) << end.messages << file_bytes(folder.file("log.lammps"));
   return end.found;
 }
 

@@ -245,6 +245,7 @@ TEST(Figure, NamesAndLabelsAreOnlyText) {
   EXPECT_THROW(write_figure(folder.path() + "/", figure), std::invalid_argument);
 }
 
+// A point without a value is none.
 TEST(Figure, PointsThatCanNotBeShownAreCounted) {
   SKIP_WITHOUT_GNUPLOT;
   const TemporaryFolder folder;
@@ -254,7 +255,7 @@ TEST(Figure, PointsThatCanNotBeShownAreCounted) {
   figure.series[0].y[2] = std::nan("");
   figure.series[1].x = {0, 0};
   write_figure(folder.file("f"), figure);
-  EXPECT_NE(file_bytes(folder.file("f.svg")).find("first (2 off the axes)"), std::string::npos);
+  EXPECT_NE(file_bytes(folder.file("f.svg")).find("first (1 off the axes)"), std::string::npos);
   EXPECT_NE(file_bytes(folder.file("f.dat")).find("-1 0.3333333333333333 0.2"), std::string::npos);
   figure.series = {{"nothing", {}, {}, {}, false}};
   EXPECT_NE(write_figure(folder.file("empty"), figure), "");
