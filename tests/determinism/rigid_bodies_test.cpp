@@ -43,8 +43,9 @@ void check_threads(EngineKind kind, bool rolling) {
 }
 
 TEST(determinism, RigidBodies) {
-  for (EngineKind kind : both_engines)
-    for (const bool rolling : {false, true}) check_threads<2>(kind, rolling), check_threads<3>(kind, rolling);
+  for (EngineKind kind : both_engines) check_threads<2>(kind, false), check_threads<3>(kind, false);
+  // Rolling resistance makes another contact problem of cd; md gives its torques to bodies as it gives forces.
+  check_threads<2>(EngineKind::cd, true), check_threads<3>(EngineKind::cd, true);
 }
 
 template <int D>
