@@ -171,6 +171,12 @@ the profile). `budget`: md: energy not accounted for over energy dissipated; cd:
 
 END
   csv_table "$results/presets/presets.csv"
+  missing=
+  for scene in "$root"/scenes/*.toml; do
+    name=$(basename "$scene" .toml)
+    grep -q "^$name," "$results/presets/presets.csv" || missing="$missing $name"
+  done
+  [ -z "$missing" ] || printf 'Not in the table, because not yet run for it:%s.\n\n' "$missing"
   measured_on presets
 fi
 if [ -f "$results/gradient_flows/annulus.csv" ]; then
