@@ -190,8 +190,8 @@ END
   csv_table "$results/gradient_flows/slope.csv"
   cat <<'END'
 Annular shear: the local law, ring by ring, beside homogeneous shear at the ring's I. The stress ratio follows 1/r² to a per mille, as the balance of
-torques wants, but it is not that of homogeneous shear at the same I: it lies below it, the more the lower I is, and material flows below
-μ*_min = 0.26. An annulus this narrow is not in the inertial regime of a local law: the stress ratio falls by a seventh per diameter, and what
+torques wants, but it is not that of homogeneous shear at the same I: it lies 0.05 to 0.11 below it, and material flows
+below μ*_min = 0.26. An annulus this narrow is not in the inertial regime of a local law: the stress ratio falls by a seventh per diameter, and what
 flows fast agitates its neighbours. The difference halves where the gradient does: one sample of md with R_i = 24 d and the same surface speed had
 μ* = 0.371, 0.344, 0.318 at I = 0.143, 0.097, 0.072, which is 0.046, 0.023, 0.021 below 0.26 + 1.1 I. That it vanishes for large radii is thus
 suspected, not shown.
