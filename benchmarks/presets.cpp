@@ -4,9 +4,9 @@
 // sigma, mu*, Phi, z: of the last stage means as the run's summary has them, of stages before their last sample.
 // `held`: each stress and rate that the loading asks for at the end of the stage, with what was there, as "sigma_yy 1:
 // 0.999+-0.02": mean and standard deviation of the rows of the last third of the stage (of a stress that changes, the
-// last row). `budget`: md: what its energy budget doesn't account for, over the work done and the energy at the start;
-// cd: energy that contacts made over what they dissipated. `missed`: steps of cd whose contact problem was not solved
-// to the tolerance; `penetration`: the largest of cd, over d.
+// last row, a mean over the last hundredth of the way). `budget`: md: what its energy budget doesn't account for, over
+// the energy dissipated; cd: energy that contacts made over what they dissipated. `missed`: steps
+// of cd whose contact problem was not solved to the tolerance; `penetration`: the largest of cd, over d.
 #include <algorithm>
 #include <array>
 #include <cmath>

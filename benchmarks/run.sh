@@ -103,7 +103,7 @@ for name in "${names[@]}"; do
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
     gradient_flows)
       "$bin/benchmarks/gradient_flows" slope | tee "$out/slope.csv"
-      "$bin/benchmarks/gradient_flows" annulus | tee "$out/annulus.csv" ;;
+      "$bin/benchmarks/gradient_flows" annulus 3 | tee "$out/annulus.csv" ;;
     faults)
       {
         GALET_KILLS=200 "$bin/tests/command/command_tests"

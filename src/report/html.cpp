@@ -38,7 +38,7 @@ struct Symbol {
 /// Beginnings of names: what follows the underscore becomes the index.
 constexpr std::array<Symbol, 3> indexed = {{{"sigma_", "σ"}, {"eps_", "ε"}, {"v_", "v"}}};
 
-constexpr std::array<Symbol, 20> whole = {{{"mu_star", "μ*"},
+constexpr std::array<Symbol, 23> whole = {{{"mu_star", "μ*"},
                                            {"Phi", "Φ"},
                                            {"z_star", "z*"},
                                            {"kappa", "κ"},
@@ -47,6 +47,9 @@ constexpr std::array<Symbol, 20> whole = {{{"mu_star", "μ*"},
                                            {"a_t", "a_{t}"},
                                            {"a_l", "a_{l}"},
                                            {"T_rot", "T_{rot}"},
+                                           {"v_t", "v_{θ}"},
+                                           {"sigma_rt", "σ_{rθ}"},
+                                           {"sigma_tt", "σ_{θθ}"},
                                            {"shear_rate", "shear rate"},
                                            {"strain", "strain γ"},
                                            {"P_normal", "P(F_{N} / ⟨F_{N}⟩)"},
