@@ -108,7 +108,7 @@ void write_column(hid_t file, const hdf5::Properties& properties, const std::str
     checked(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "storing '" + name + "'");
 }
 
-void fill_file(hid_t file, const Archive& archive) {
+void fill_tree(hid_t file, const Archive& archive) {
   const hdf5::Properties properties;
   for (const auto& [name, values] : archive.reals)
     write_column(file, properties, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, hdf5::simple_space(values.size()),
@@ -151,7 +151,7 @@ void write_hdf5(const std::string& path, const Archive& archive) {
   std::string image;
   try {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "making file properties");
-    image = hdf5::file_image(creation, [&](hid_t file) { fill_file(file, archive); });
+    image = hdf5::file_image(creation, [&](hid_t file) { fill_tree(file, archive); });
   } catch (const hdf5::Failure& failure) {
     throw RunError(fmt::format("can't write '{}': {}", path, failure.what()));
   }

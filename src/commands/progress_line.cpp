@@ -11,13 +11,23 @@ namespace {
 constexpr const char* clear_line = "\r\x1b[K";
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(Style style) : style_(style), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::show(const std::string& text) {
-  if (!terminal_) return;
+  if (!shown()) return;
+  if (!terminal_) return show_line(text);
   fmt::print(stderr, "{}{}", clear_line, text);
   std::fflush(stderr);
   dirty_ = true;
+}
+
+void ProgressLine::show_line(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  fmt::print(stderr, "{}\n", text);
+  std::fflush(stderr);
+  next_ = now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                    std::chrono::duration<double>(seconds_between_lines));
 }
 
 void ProgressLine::clear() {

@@ -1,6 +1,7 @@
 // galet run: one scene with one engine, from its start or from a checkpoint.
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -25,6 +26,12 @@ namespace galet::cli {
 
 namespace {
 
+/// What a run says: what went wrong; its results too; its progress too where there is no terminal.
+enum class LogLevel { warnings, results, progress };
+
+const std::map<std::string, LogLevel> log_levels = {
+    {"warnings", LogLevel::warnings}, {"results", LogLevel::results}, {"progress", LogLevel::progress}};
+
 struct RunArguments {
   SceneArguments scene;
   std::string engine;  ///< empty: the scene's
@@ -35,6 +42,7 @@ struct RunArguments {
   std::optional<long> dump_step;  ///< write the contact problem of this step, and stop
   std::string dump_file;
   bool json = false;
+  LogLevel log = LogLevel::results;
 };
 
 /// What is to be run, and what it is called.
@@ -181,13 +189,16 @@ int run_job(const RunArguments& arguments, const Job& job) {
     control.stop = interrupted;
     return dump_problem(simulation, {*arguments.dump_step, file, job.title}, control);
   }
-  if (!arguments.json)
+  const bool results = !arguments.json && arguments.log != LogLevel::warnings;
+  if (results)
     fmt::print("{}\n{} engine, {}, {} grains\n", job.title, engine, to_string(simulation.derived().layout),
                simulation.derived().grains.count);
   std::fflush(stdout);
 
   catch_interrupts();
-  ProgressLine line;
+  ProgressLine line(arguments.log == LogLevel::warnings   ? ProgressLine::Style::off
+                    : arguments.log == LogLevel::progress ? ProgressLine::Style::everywhere
+                                                          : ProgressLine::Style::terminal_only);
   RunControl control = control_of(arguments, job, checkpoint_path, line);
   const FrameFiles frames(path_in(job.directory, engine), simulation.scene().output.formats, simulation.material(),
                           !simulation.scene().reduced_units);
@@ -198,7 +209,7 @@ int run_job(const RunArguments& arguments, const Job& job) {
   const Written written = write_results(result, simulation, job, frames, checkpoint_path, last_good_path);
   if (arguments.json) {
     fmt::print("{}\n", to_json(result, job.title));
-  } else {
+  } else if (results) {
     fmt::print("{}", summary(result));
     for (const std::string& file : written.files) fmt::print("wrote {}\n", file);
   }
@@ -242,6 +253,11 @@ void add_run(CLI::App& app, Action& action) {
       ->add_option("--dump-file", arguments->dump_file, "that file (default: problem_STEP.hdf5 in the results' folder)")
       ->needs(dump);
   command->add_flag("--json", arguments->json, "print one JSON object")->excludes(dump);
+  command
+      ->add_option("--log", arguments->log,
+                   "what is said: warnings (and errors), results (the default; progress on a terminal only), progress "
+                   "(also a line every ten seconds where there is no terminal)")
+      ->transform(CLI::CheckedTransformer(log_levels));
   command->callback([&action, arguments] { action = [arguments] { return run_scene(*arguments); }; });
 }
 

@@ -91,7 +91,7 @@ struct Rest {
 };
 
 /// Whether a grain carries load: in two contacts with more than 1e-3 of the mean force.
-std::vector<char> held(const Snapshot<2>& state) {
+std::vector<char> held_grains(const Snapshot<2>& state) {
   const ContactColumns<2>& contacts = *state.contacts;
   double mean = 0;
   for (const Vec<2>& force : contacts.force) mean += force.norm() / static_cast<double>(contacts.size());
@@ -108,7 +108,7 @@ std::vector<char> held(const Snapshot<2>& state) {
 /// less. That is no creep: displacements and velocities are counted from the packing's own.
 Rest compare(const std::vector<Vec<2>>& before, const Snapshot<2>& state) {
   Rest rest;
-  const std::vector<char> bearing = held(state);
+  const std::vector<char> bearing = held_grains(state);
   const Mat<2> inverse = state.cell->box.inverse();
   std::vector<Vec<2>> moved(state.grains(), Vec<2>::Zero());
   Vec<2> drift = Vec<2>::Zero(), velocity = Vec<2>::Zero();
