@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "src/advice.hpp"
 #include "src/commands/arguments.hpp"
 #include "src/commands/commands.hpp"
 #include "src/commands/interrupt.hpp"
@@ -25,6 +27,7 @@ struct CompareArguments {
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool brief = false;
   bool json = false;
+  std::optional<double> error;  ///< wanted
 };
 
 bool failed(const Comparison& comparison) {
@@ -59,6 +62,7 @@ int compare_engines(const CompareArguments& arguments) {
     fmt::print("{}\n", compare_json(comparison, title));
   } else {
     fmt::print("{}\n", compare_text(comparison));
+    if (arguments.error) fmt::print("{}\n", advice_text(advise(comparison, *arguments.error), comparison));
     for (const std::string& file : files) fmt::print("wrote {}\n", file);
   }
   if (comparison.interrupted) fmt::print(stderr, "galet: stopped; the rows that were not finished are left out\n");
@@ -78,7 +82,13 @@ void add_compare(CLI::App& app, Action& action) {
                     "a shortened comparison, a minute or two: at most 400 grains, I = 0.1, kappa = 1e3 and 1e4, "
                     "cd.dt_factor = 0.02 and 0.01, cd.tolerance = 1e-3, strain 30");
   command->add_option("--out", arguments->out, "folder for tables and pictures (default: out/<scene name>)");
-  command->add_flag("--json", arguments->json, "print one JSON object");
+  CLI::Option* json = command->add_flag("--json", arguments->json, "print one JSON object");
+  command
+      ->add_option("--error", arguments->error,
+                   "wanted relative error of mu* (without shear: Phi) of rigid grains: say which engine reaches it at "
+                   "the least cost, with which settings, and on what evidence")
+      ->check(CLI::Range(1e-6, 0.99))
+      ->excludes(json);
   command->callback([&action, arguments] { action = [arguments] { return compare_engines(*arguments); }; });
 }
 
