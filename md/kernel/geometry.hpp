@@ -100,8 +100,9 @@ GALET_INLINE Group<Minus, 4> combine_shifted(const PassView& view, const RowBloc
 
 #ifdef __AVX512F__
 
-/// In which half of which of four registers each of eight rows lies (columns_of_eight): first and second half.
-inline constexpr int halves_of_eight[4][2] = {{0, 2}, {1, 3}, {4, 6}, {5, 7}};
+/// Which of eight rows lies in the first (0) or second (1) half of register k of four (columns_of_eight): rows 0 and 2,
+/// 1 and 3, 4 and 6, 5 and 7. (A function: a table would be an object that other files define too.)
+GALET_INLINE int row_in_half(int k, int half) { return 4 * (k / 2) + k % 2 + 2 * half; }
 
 template <unsigned Minus>
 GALET_INLINE __m512d signed_sum(__m512d i, __m512d j) {
@@ -119,7 +120,7 @@ GALET_INLINE Group<Minus, 8> combine(const double* records, int group, const std
                                      Lanes<8>) {
   Group<Minus, 8> result;
   for (int k = 0; k < 4; ++k) {
-    const int a = halves_of_eight[k][0], b = halves_of_eight[k][1];
+    const int a = row_in_half(k, 0), b = row_in_half(k, 1);
     const auto both = [&](const std::uint32_t* of) {
       return two_fours(at_bytes(records, of[a]) + 4 * group, at_bytes(records, of[b]) + 4 * group);
     };
@@ -132,7 +133,7 @@ template <unsigned Minus>
 GALET_INLINE Group<Minus, 8> combine_shifted(const PassView& view, const RowBlock& block, int, Lanes<8>) {
   Group<Minus, 8> result;
   for (int k = 0; k < 4; ++k) {
-    const int a = halves_of_eight[k][0], b = halves_of_eight[k][1];
+    const int a = row_in_half(k, 0), b = row_in_half(k, 1);
     const auto both = [&](const double* base, const std::uint32_t* of) {
       return two_fours(at_bytes(base, of[a]), at_bytes(base, of[b]));
     };

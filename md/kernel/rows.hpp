@@ -46,8 +46,8 @@ GALET_INLINE void write_out(double* out, Lanes<8> a, Lanes<8> b, Lanes<8> c, Lan
   rows_of_eight(a, b, c, d);
   const Lanes<8> registers[4] = {a, b, c, d};
   for (int k = 0; k < 4; ++k) {
-    _mm256_store_pd(out + halves_of_eight[k][0] * size, _mm512_castpd512_pd256(registers[k].v));
-    _mm256_store_pd(out + halves_of_eight[k][1] * size, _mm512_extractf64x4_pd(registers[k].v, 1));
+    _mm256_store_pd(out + row_in_half(k, 0) * size, _mm512_castpd512_pd256(registers[k].v));
+    _mm256_store_pd(out + row_in_half(k, 1) * size, _mm512_extractf64x4_pd(registers[k].v, 1));
   }
 }
 #endif

@@ -22,15 +22,15 @@ std::unique_ptr<Engine<D>> clump_run(EngineKind kind, int side, bool rolling, do
 }
 
 template <int D>
-void check_threads(EngineKind kind, bool rolling) {
+void check_threads(EngineKind kind, bool rolling, const std::vector<int>& counts, int looks) {
   SCOPED_TRACE(to_string(kind) + " D = " + std::to_string(D) + (rolling ? ", rolling resistance" : ""));
   const ThreadCount restored;
   std::uint64_t expected = 0;
-  for (int threads : {1, 2, 4}) {
+  for (const int threads : counts) {
     set_thread_count(threads);
     const auto engine = clump_run<D>(kind, D == 2 ? 30 : 9, rolling, 2);
     std::size_t contacts = 0;
-    for (int look = 0; look < 5; ++look) {
+    for (int look = 0; look < looks; ++look) {
       engine->advance(kind == EngineKind::md ? 200 : 12);
       contacts += engine->snapshot().contacts->size();
     }
@@ -43,9 +43,11 @@ void check_threads(EngineKind kind, bool rolling) {
 }
 
 TEST(determinism, RigidBodies) {
-  for (EngineKind kind : both_engines) check_threads<2>(kind, false), check_threads<3>(kind, false);
-  // Rolling resistance makes another contact problem of cd; md gives its torques to bodies as it gives forces.
-  check_threads<2>(EngineKind::cd, true), check_threads<3>(EngineKind::cd, true);
+  for (EngineKind kind : both_engines)
+    check_threads<2>(kind, false, {1, 2, 4}, 5), check_threads<3>(kind, false, {1, 2, 4}, 5);
+  // Rolling resistance makes another contact problem of cd, a dear one; md gives its torques to bodies as it gives
+  // forces.
+  check_threads<2>(EngineKind::cd, true, {1, 2}, 1), check_threads<3>(EngineKind::cd, true, {1, 2}, 5);
 }
 
 template <int D>
