@@ -65,8 +65,8 @@ GALET_INLINE Space<V> shortened(V most, const Space<V>& value) {
   return min(share(most, squared(value)), V(1.0)) * value;  // no number leaves the zero vector
 }
 
-/// What sliding makes of a trial force beyond the limit: the force, and the stored elongation. `length` of the result
-/// of no use where the spring sticks.
+/// What sliding makes of a trial force beyond the limit: the force, the stored elongation, and the power lost. Of no
+/// use where the spring sticks.
 template <class V, class Value>
 struct Slide {
   Value force, stored;
