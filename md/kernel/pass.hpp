@@ -34,6 +34,12 @@ class Stages {
   GALET_INLINE static int lane(std::size_t group) { return static_cast<int>(group % groups) * W; }
   /// Second members lie anywhere in memory: their records are asked for some blocks before they are read.
   GALET_INLINE void fetch(std::size_t group) const {
+    if (groups == 1 || group % groups == 0) {
+      const double* columns = view_.columns + block(group) * RowColumns<Y>::count * block_rows;
+      for (int line = 0; line < RowColumns<Y>::count; ++line) __builtin_prefetch(columns + line * block_rows);
+      const RowBlock* later = view_.blocks + block(group + ahead);
+      __builtin_prefetch(later), __builtin_prefetch(reinterpret_cast<const char*>(later) + 64);
+    }
     const std::uint32_t* second = view_.blocks[block(group)].j + lane(group);
     for (int k = 0; k < W; ++k)
       for (int line = 0; line < record_size(Y); line += 8)

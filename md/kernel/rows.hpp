@@ -145,12 +145,12 @@ class Rows {
       const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
       Spin torque{};
       if constexpr (Y.rolling) {
-        torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before, cross);
+        torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before, cross, block);
         if (__builtin_expect(cross.any, 0)) torque = select(cross.ends, cross.torque, torque);
       }
       const V stretch = at.distance * V::load(constants.inverse_reach + lane);
       slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, opening, stretch, force, torque, cross,
-            out);
+            block, out);
       if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
       if constexpr (Y.dim == 3) store(at.normal, columns + C::normal * block_rows);
     } else if constexpr (Y.dim == 2) {
@@ -268,7 +268,8 @@ class Rows {
   template <class Value>
   GALET_INLINE Value spring(double* column, Value elongation, const NormalForce<V>& normal, const Ahead& ahead,
                             M touching, V stiffness_before, V factor, V reach, V viscosity, bool total,
-                            const Value& rate, const Crossing& cross, double (*sums)[block_rows], int lane) {
+                            const Value& rate, const Crossing& cross, double (*sums)[block_rows], int lane,
+                            std::uint8_t& slid) {
     Losses<V> losses;
     const Value before = load(column, Value{});
     if (varying())
@@ -285,7 +286,10 @@ class Rows {
                              half_after_};
     Losses<V> sliding;
     M slides;
-    Value force = spring_force<K>(touching, law, rate, elongation, slides, sliding);
+    const unsigned guess = slid >> lane & ((1u << W) - 1);
+    Value force = spring_force<K>(touching, law, rate, elongation, guess, slides, sliding);
+    if (const unsigned now = bits(slides); __builtin_expect(now != guess, 0))
+      slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
     if (__builtin_expect(cross.any, 0)) force = begun(cross, slides, force, viscosity, rate, sliding);
     if constexpr (K.account) {
       losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
@@ -318,23 +322,24 @@ class Rows {
 
   GALET_INLINE void slide(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
                           double* columns, int lane, M touching, V stiffness_before, V opening, V stretch,
-                          Vector& force, const Spin& torque, const Crossing& cross, double* out) {
+                          Vector& force, const Spin& torque, const Crossing& cross, RowBlock& block, double* out) {
     double* column = columns + C::spring * block_rows;
     const V viscosity = terms.tangential_viscosity * normal.critical;
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent{-at.normal.y, at.normal.x};
       const V rate = nmadd(stretch, at.surface, dot(tangent, at.centres));
-      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
-                                terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
+      V tangential =
+          -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
+                     terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
       write_out(out, force.x, force.y, stretch * tangential, torque, out_size(Y));
     } else {
       const Space<V> arm = stretch * at.normal;
       const Space<V> rate = madd_cross(arm, at.surface, nmadd(opening, at.normal, at.centres));
-      Space<V> resisting =
-          spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
-                           terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane);
+      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before,
+                                            terms.tangential_ratio, terms.friction, viscosity, view_.kind.total, rate,
+                                            cross, sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
       const Space<V> twist = galet::md::cross(resisting, arm);
@@ -346,24 +351,25 @@ class Rows {
 
   /// Rolling and pivoting torque on j, from the relative rotation w_j - w_i.
   GALET_INLINE Spin roll(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
-                         double* columns, int lane, M touching, V stiffness_before, const Crossing& cross) {
+                         double* columns, int lane, M touching, V stiffness_before, const Crossing& cross,
+                         RowBlock& block) {
     double* column = columns + C::rolling * block_rows;
     const M rolls = touching & (V(0.0) < terms.rolling_friction);
     if constexpr (Y.dim == 2) {
       return -spring<V>(column, transported<V>(column, at, columns), normal, ahead, rolls, stiffness_before,
                         terms.rolling_stiffness, terms.rolling_friction, V(0.0), false, at.relative, cross,
-                        sums_.rolling, lane);
+                        sums_.rolling, lane, block.sliding[1]);
     } else {
       const V about = dot(at.relative, at.normal);
       const Space<V> rolling =
           spring<Space<V>>(column, transported<Space<V>>(column, at, columns), normal, ahead, rolls, stiffness_before,
                            terms.rolling_stiffness, terms.rolling_friction, V(0.0), false,
-                           nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane);
+                           nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane, block.sliding[1]);
       double* turns = columns + C::pivoting * block_rows;
       const M pivots = touching & (V(0.0) < terms.pivoting_friction);
       const V pivoting =
           spring<V>(turns, load(turns, V{}), normal, ahead, pivots, stiffness_before, terms.pivoting_stiffness,
-                    terms.pivoting_friction, V(0.0), false, about, cross, sums_.pivoting, lane);
+                    terms.pivoting_friction, V(0.0), false, about, cross, sums_.pivoting, lane, block.sliding[2]);
       return V(-1.0) * madd(pivoting, at.normal, rolling);
     }
   }

@@ -68,6 +68,7 @@ struct alignas(64) RowBlock {
   std::uint32_t shift[block_rows];             ///< image of j: where its lattice vector begins in the table, in bytes
   std::uint8_t law[block_rows];                ///< index of the pair of materials
   std::uint8_t touching, attracted;  ///< bit k: the state of row k (attracted: across a gap, by a cohesion of range D0)
+  std::uint8_t sliding[3];  ///< bit k: whether row k slid, rolled, pivoted a step ago; a guess, of no consequence
 };
 
 /// Grains whose records can be addressed by RowBlock.

@@ -105,10 +105,12 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial
 }
 
 /// F of the touching pairs; updates the stored elongation (where not touching: to anything finite) and says which of
-/// them slide. `losses` is filled by kernels that account for energy.
+/// them slide. `losses` is filled by kernels that account for energy. `guess`: which slid a step ago (bit k: row k).
+/// It changes no result: whether any does now is known late, and a processor that has guessed wrongly has to throw away
+/// what it has begun of the next rows; the guess is known at once and seldom wrong.
 template <Kernel K, int W, class Value>
 GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& law, const Value& rate, Value& stored,
-                                Mask<W>& slides, Losses<Lanes<W>>& losses) {
+                                unsigned guess, Mask<W>& slides, Losses<Lanes<W>>& losses) {
   using V = Lanes<W>;
   const V k = law.stiffness, step = law.half_before + law.half_after;
   const V bounded_viscosity = K.general && law.total ? law.viscosity : V(0.0);
@@ -120,7 +122,9 @@ GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& l
   stored = madd(step, rate, stored);
   const Value sticking = K.general && !law.total ? madd(law.viscosity, rate, force) : force;
   if (K.account) losses.viscous += only(without(touching, slides), law.viscosity * squared(rate));
-  if (!any(slides)) return sticking;
+  if (!guess) {
+    if (__builtin_expect(!any(slides), 1)) return sticking;
+  }
   const Slide<V, Value> to = slide<K>(law, force, rate, before, bounded_viscosity);
   stored = select(slides, to.stored, stored);
   if (K.account) losses.viscous += only(slides, to.viscous), losses.plastic += only(slides, to.plastic);

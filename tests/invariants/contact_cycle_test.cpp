@@ -88,7 +88,8 @@ Balance around(const Cycle& cycle, bool hertz) {
     const double limit = cycle.friction * normal.bound.v;
     const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 0.0, false, dt / 2, dt / 2};
     Mask<1> slides;
-    const Vec<3> force = from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, slides, losses));
+    const Vec<3> force =
+        from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, 0, slides, losses));
     EXPECT_LE(force.norm(), limit * (1 + 1e-12));
     balance.work += force.dot(shear);
     balance.lost += dt * (losses.plastic + losses.unloading + losses.viscous).v;
@@ -158,7 +159,7 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
         const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 30.0, total, dt / 2, dt / 2};
         Mask<1> slides;
         const Vec<3> force =
-            from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, slides, losses));
+            from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, 0, slides, losses));
         if (total) {
           EXPECT_LE(force.norm(), limit * (1 + 1e-12));
         }
