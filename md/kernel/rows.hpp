@@ -88,7 +88,15 @@ class Rows {
         sums_(sums),
         half_before_(view.half_before),
         half_after_(view.half_after),
-        common_(same_terms<W>(view.terms[0])) {}
+        common_(same_terms<W>(view.terms[0])) {
+    if constexpr (!K.general && !K.hertz) {
+      const V stiffness(view.constants->coefficient[0]);  // the same for all rows
+      inverse_before_ = V(1.0) / half_before_;
+      softness_ = V(1.0) / (common_.tangential_ratio * stiffness);
+      rolling_softness_ = V(1.0) / (common_.rolling_stiffness * stiffness);
+      pivoting_softness_ = V(1.0) / (common_.pivoting_stiffness * stiffness);
+    }
+  }
 
   /// What is known of W pairs before a law is applied.
   struct Pair : Place<Y, W>, Motion<Y, W> {
@@ -264,37 +272,44 @@ class Rows {
     add_lanes(sums[2], lane, only(touching, losses.unloading));
   }
 
+  /// What a spring makes of the normal force: its stiffness is ratio K_N, its limit reach times the bound.
+  struct Resistance {
+    V ratio, softness, reach, viscosity;
+    bool total;
+  };
+
   /// One spring, `elongation` in the present frame, until it is stored; returns its force.
   template <class Value>
   GALET_INLINE Value spring(double* column, Value elongation, const NormalForce<V>& normal, const Ahead& ahead,
-                            M touching, V stiffness_before, V factor, V reach, V viscosity, bool total,
-                            const Value& rate, const Crossing& cross, double (*sums)[block_rows], int lane,
-                            std::uint8_t& slid) {
+                            M touching, V stiffness_before, const Resistance& by, const Value& rate,
+                            const Crossing& cross, double (*sums)[block_rows], int lane, std::uint8_t& slid) {
     Losses<V> losses;
     const Value before = load(column, Value{});
     if (varying())
-      adapt_spring<K>(factor * stiffness_before, factor * normal.stiffness, half_before_ + half_after_, elongation,
+      adapt_spring<K>(by.ratio * stiffness_before, by.ratio * normal.stiffness, half_before_ + half_after_, elongation,
                       losses);
     if (__builtin_expect(cross.any, 0)) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
-    const SpringTerms<V> law{factor * normal.stiffness,
-                             reach * normal.bound,
-                             reach * ahead.bound,
+    const SpringTerms<V> law{by.ratio * normal.stiffness,
+                             by.reach * normal.bound,
+                             by.reach * ahead.bound,
                              ahead.softening,
-                             viscosity,
-                             total,
+                             by.viscosity,
+                             by.total,
                              half_before_,
-                             half_after_};
+                             half_after_,
+                             by.softness,
+                             inverse_before_};
     Losses<V> sliding;
     M slides;
     const unsigned guess = slid >> lane & ((1u << W) - 1);
     Value force = spring_force<K>(touching, law, rate, elongation, guess, slides, sliding);
     if (const unsigned now = bits(slides); __builtin_expect(now != guess, 0))
       slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
-    if (__builtin_expect(cross.any, 0)) force = begun(cross, slides, force, viscosity, rate, sliding);
+    if (__builtin_expect(cross.any, 0)) force = begun(cross, slides, force, by.viscosity, rate, sliding);
     if constexpr (K.account) {
       losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
       const V stiffness = varying() ? stiffness_before : normal.stiffness;
-      elongation = kept(touching, before, elongation, factor * stiffness, losses);
+      elongation = kept(touching, before, elongation, by.ratio * stiffness, losses);
       note_losses(touching, losses, sums, lane);
     } else {
       elongation = only(touching, elongation);
@@ -324,21 +339,20 @@ class Rows {
                           double* columns, int lane, M touching, V stiffness_before, V opening, V stretch,
                           Vector& force, const Spin& torque, const Crossing& cross, RowBlock& block, double* out) {
     double* column = columns + C::spring * block_rows;
-    const V viscosity = terms.tangential_viscosity * normal.critical;
+    const Resistance sliding{terms.tangential_ratio, softness_, terms.friction,
+                             terms.tangential_viscosity * normal.critical, view_.kind.total};
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent{-at.normal.y, at.normal.x};
       const V rate = nmadd(stretch, at.surface, dot(tangent, at.centres));
-      V tangential =
-          -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, terms.tangential_ratio,
-                     terms.friction, viscosity, view_.kind.total, rate, cross, sums_.sliding, lane, block.sliding[0]);
+      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, rate, cross,
+                                sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
       write_out(out, force.x, force.y, stretch * tangential, torque, out_size(Y));
     } else {
       const Space<V> arm = stretch * at.normal;
       const Space<V> rate = madd_cross(arm, at.surface, nmadd(opening, at.normal, at.centres));
-      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before,
-                                            terms.tangential_ratio, terms.friction, viscosity, view_.kind.total, rate,
+      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, rate,
                                             cross, sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
@@ -357,19 +371,20 @@ class Rows {
     const M rolls = touching & (V(0.0) < terms.rolling_friction);
     if constexpr (Y.dim == 2) {
       return -spring<V>(column, transported<V>(column, at, columns), normal, ahead, rolls, stiffness_before,
-                        terms.rolling_stiffness, terms.rolling_friction, V(0.0), false, at.relative, cross,
-                        sums_.rolling, lane, block.sliding[1]);
+                        Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
+                        at.relative, cross, sums_.rolling, lane, block.sliding[1]);
     } else {
       const V about = dot(at.relative, at.normal);
-      const Space<V> rolling =
-          spring<Space<V>>(column, transported<Space<V>>(column, at, columns), normal, ahead, rolls, stiffness_before,
-                           terms.rolling_stiffness, terms.rolling_friction, V(0.0), false,
-                           nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane, block.sliding[1]);
+      const Space<V> rolling = spring<Space<V>>(
+          column, transported<Space<V>>(column, at, columns), normal, ahead, rolls, stiffness_before,
+          Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
+          nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane, block.sliding[1]);
       double* turns = columns + C::pivoting * block_rows;
       const M pivots = touching & (V(0.0) < terms.pivoting_friction);
       const V pivoting =
-          spring<V>(turns, load(turns, V{}), normal, ahead, pivots, stiffness_before, terms.pivoting_stiffness,
-                    terms.pivoting_friction, V(0.0), false, about, cross, sums_.pivoting, lane, block.sliding[2]);
+          spring<V>(turns, load(turns, V{}), normal, ahead, pivots, stiffness_before,
+                    Resistance{terms.pivoting_stiffness, pivoting_softness_, terms.pivoting_friction, V(0.0), false},
+                    about, cross, sums_.pivoting, lane, block.sliding[2]);
       return V(-1.0) * madd(pivoting, at.normal, rolling);
     }
   }
@@ -389,6 +404,7 @@ class Rows {
   LaneSums& sums_;
   V half_before_, half_after_;
   PairTerms<V> common_;
+  V inverse_before_{}, softness_{}, rolling_softness_{}, pivoting_softness_{};  ///< SpringTerms
 };
 
 }  // namespace galet::md

@@ -31,6 +31,9 @@ struct SpringTerms {
   bool total;     ///< viscous convention
   V half_before;  ///< dt_before / 2 (0 at the very start)
   V half_after;   ///< dt_after / 2
+  // Divisions that plain linear kernels make once for all rows; others leave them out.
+  V softness{};        ///< 1 / K
+  V inverse_before{};  ///< 1 / half_before
 };
 
 /// Power that contacts take out of the motion, by channel.
@@ -76,7 +79,8 @@ struct Slide {
 template <Kernel K, class V, class Value>
 GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial, const Value& rate,
                                    const Value& stored, V bounded_viscosity) {
-  const V k = law.stiffness, step = law.half_before + law.half_after, inverse = V(1.0) / k;
+  constexpr bool given = !K.general && !K.hertz;
+  const V k = law.stiffness, step = law.half_before + law.half_after, inverse = given ? law.softness : V(1.0) / k;
   Slide<V, Value> to;
   to.force = with_norm(law.limit, trial);
   // Where the limit has fallen by more than a third in one step the midpoint rule resolves nothing: the spring first
@@ -89,7 +93,7 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial
   // dq/dt from K (start + dt/2 dq/dt) + alpha dq/dt = F
   const V delay = K.general ? madd(inverse, bounded_viscosity, law.half_before) : law.half_before;
   const auto resolved = V(0.0) < delay;  // not at the very start
-  const Value flow = only(resolved, V(1.0) / delay * (inverse * to.force - start));
+  const Value flow = only(resolved, (given ? law.inverse_before : V(1.0) / delay) * (inverse * to.force - start));
   const Value free = select(resolved, start + step * flow, inverse * to.force);
   V most = inverse * law.limit_ahead;
   // While K falls elongations are kept: the one allowed is that of the softer spring.
