@@ -6,6 +6,7 @@
 #   frictionless_2d  both engines on scenes/frictionless_2d.toml
 #   presets          every ready scene with both engines side by side: stresses, Phi, z, mu*, energy budget, time (an hour or more)
 #   layouts          what each layout costs (Google Benchmark)
+#   stages           what each stage of a step costs (Google Benchmark)
 #   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains (about five minutes, 3 GB; --quick: to 64000, half a minute)
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
@@ -19,10 +20,11 @@
 #   lammps_speed     grain-steps per second of LAMMPS and md in turn, and of two threads; needs LAMMPS too
 #   md_accuracy      error of md against the step beside the usual scheme, and the work to reach an error (uses lammps_speed)
 #   md_drift         energy and positions of md over 1e7 steps of packings that nothing drives (about four minutes)
-#   work_precision   error against processor time of both engines in seven classes of scenes, where one overtakes the other, cost laws, and
+#   work_precision   error against processor time of both engines in eight classes of scenes, where one overtakes the other, cost laws, and
 #                    orders of convergence to the rigid limit (about ten minutes of one core; goes on where it was stopped)
 #   rigid_limit      contact forces of a hyperstatic packing in md and elastic cd at kappa = 1e2 to 1e7, contact by contact
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
+#   siconos_hard_cases  contact problems of hard cases given to Siconos; skipped where it is not installed
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
 #   gradient_flows   inclined plane (stop and flow) and annular shear beside homogeneous shear, both engines
@@ -34,11 +36,12 @@
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-cmake --preset release -DGALET_BUILD_BENCHMARKS=ON >/dev/null
+# scripts/test leaves its configuration in the same folder.
+cmake --preset release -DGALET_BUILD_BENCHMARKS=ON -DGALET_OPTIMISE_BENCHMARKS=ON >/dev/null
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify siconos_hard_cases plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -74,6 +77,20 @@ for name in "${names[@]}"; do
       awk 'FNR > 1 || NR == 1' "$parts"/*.csv >"$out/presets.csv"
       rm -r "$parts" ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
+    stages)
+      "$bin/benchmarks/stages" --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+        --benchmark_format=csv 2>/dev/null | awk -F, '
+          /^name,/ { print "stage,ns per item,item,spread"; next }
+          { gsub(/"/, ""); sub("/manual_time", "", $1) }
+          $1 ~ /_median$/ { sub("_median", "", $1); name[++rows] = $1; item[rows] = $8; value[rows] = 1e9 * $NF }
+          $1 ~ /_cv$/ { spread[rows] = $NF }
+          END { for (k = 1; k <= rows; ++k) printf "%s,%.3g,%s,%.2g\n", name[k], value[k], item[k], spread[k] }' | tee "$out/stages.csv" ;;
+    siconos_hard_cases)
+      "$bin/benchmarks/siconos_hard_cases" "$out"
+      if [ ! -f "$out/summary.csv" ]; then
+        rmdir --ignore-fail-on-non-empty "$out"
+        continue
+      fi ;;
     md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
     md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;

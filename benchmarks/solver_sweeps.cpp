@@ -5,8 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/dense_sample.hpp"
-#include "cd/assembly.hpp"
+#include "benchmarks/cold_problem.hpp"
 #include "cd/solvers/nsgs.hpp"
 
 namespace galet {
@@ -14,47 +13,9 @@ namespace {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The contact problem of the packing's next step under P = 1, and the free velocities it starts from.
-template <Layout Y>
-struct ColdProblem {
-  static constexpr int D = Y.dim;
-  cd::Problem<Y> problem;
-  cd::Iterate<Y> start;
-
-  explicit ColdProblem(int count) {
-    constexpr double dt = 0.01, friction = 0.4;
-    const Sample<D> sample = bench::dense_sample<D>(count, friction);
-    const Scene scene = bench::dense_scene(D, count, friction);
-    const Derived derived = derive(scene, grain_facts<D>(scene, sample));
-    Bodies<Y> bodies;
-    bodies.start(scene, derived, sample);
-    VerletList<D> list;
-    list.configure(0, 0.1);
-    list.build(bodies.position, bodies.radius, bodies.cell, bodies.planes);
-    problem.laws = {{friction, 0, 0}};
-    problem.grains = count;
-    for (int i = 0; i < count; ++i) {
-      problem.inverse_mass.push_back(1 / bodies.mass[i]);
-      problem.inverse_inertia.push_back(1 / bodies.inertia[i]);
-    }
-    const CellMode<D>& mode = bodies.modes[0];
-    problem.hub.push_back({mode.direction, 1 / mode.inertia});
-    start.velocity.assign(count, Vec<D>::Zero());
-    start.spin.assign(count, zero_spin<D>());
-    // The load: the hub is pushed inwards as by the pressure over one step.
-    start.hub_rate.push_back(-dt * bodies.cell.volume() * mode.load / mode.inertia);
-    start.gradient = start.hub_rate[0] * mode.direction;
-    cd::Assembly<Y> assembly;
-    assembly.measure(bodies, list);
-    assembly.activate(list, start.velocity, dt, 1e-3);
-    assembly.fill(bodies, list, derived.laws, {dt}, start, problem);
-    start.reaction.assign(problem.size(), cd::Reaction<Y>::Zero());
-  }
-};
-
 template <Layout Y>
 void measure(int count) {
-  const ColdProblem<Y> cold(count);
+  const bench::ColdProblem<Y> cold(count);
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
     for (const double momentum : {0.0, 0.9}) {
       cd::Iterate<Y> iterate = cold.start;

@@ -35,7 +35,7 @@ if [ -f "$results/work_precision/work.csv" ]; then
   cat <<'END'
 ## Speed against error, class by class
 
-`benchmarks/run.sh work_precision`: both engines answer one question about rigid grains in each of seven classes of scenes, at many settings (md: κ and
+`benchmarks/run.sh work_precision`: both engines answer one question about rigid grains in each of eight classes of scenes, at many settings (md: κ and
 steps per contact; cd: dt and tolerance). Errors of the first three are against exact answers; of the others they are relative to the rigid limit that both
 engines tend to, and never counted smaller than their standard error.
 
@@ -44,6 +44,7 @@ engines tend to, and never counted smaller than their standard error.
 - packing: contact forces of 40 frictionless disks after a change of load, which statics determines (rms over the mean force);
 - gas: kinetic energy left of 500 disks, e = 0.9, after six collisions each, eight seeds;
 - biaxial: q/P of six packings of 100 disks, mean over axial strains from 1 % to 2 %;
+- triaxial: (σ₃/P − 1) of six packings of 100 spheres, mean over axial strains from 1 % to 2 %;
 - flow_0.1, flow_0.01: μ* of 300 disks in plane shear at that I.
 
 md: processor seconds of the steps per unit of the column `per`; cd likewise. A cost between two settings is interpolated along the front of the best ones.
@@ -57,7 +58,15 @@ END
   grep -v '^#' "$results/work_precision/crossover.csv" >"${TMPDIR:-/tmp}/crossover.$$"
   csv_table "${TMPDIR:-/tmp}/crossover.$$"
   rm -f "${TMPDIR:-/tmp}/crossover.$$"
-  for class in impact column packing gas biaxial flow_0.1 flow_0.01; do
+  if [ -f "$results/work_precision/crossings.csv" ]; then
+    cat <<'END_OF_CROSSINGS'
+The errors at which one engine overtakes the other, and md's κ and cd's settings there: `low` to `high` hold the middle two thirds of what 400 redrawings of
+the rows give (errors moved by their standard errors, costs by a tenth), `share` says how many of them cross at all.
+
+END_OF_CROSSINGS
+    csv_table "$results/work_precision/crossings.csv"
+  fi
+  for class in impact column packing gas biaxial triaxial flow_0.1 flow_0.01; do
     printf '![%s: error against cost](../benchmarks/results/work_precision/%s.svg)\n\n' "$class" "$class"
   done
   printf 'Cost laws: exponents of cost in one parameter, the others fixed, with the error that the scatter about the law gives.\n\n'
@@ -161,6 +170,17 @@ awk -F, '/^name,/ || /^"/ { gsub(/"/, ""); print $1 "," $4 "," $5 "," $(NF-1) ",
 csv_table "${TMPDIR:-/tmp}/layouts.$$"
 rm -f "${TMPDIR:-/tmp}/layouts.$$"
 measured_on layouts
+if [ -f "$results/stages/stages.csv" ]; then
+  cat <<'END'
+## Stages
+
+`benchmarks/run.sh stages` (Google Benchmark): what each stage of a step costs per item on packings of 2000 disks and 2000 spheres, processor time, medians of
+five. The passes of md are those of a run in shear; a sweep of cd is one of fifty from a cold start.
+
+END
+  csv_table "$results/stages/stages.csv"
+  measured_on stages
+fi
 echo "## Contact solver"
 printf '\nSweeps from a cold start on a dense packing under pressure, plain and with momentum.\n\n'
 csv_table "$results/solver_sweeps/solver_sweeps.csv"

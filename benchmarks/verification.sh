@@ -18,3 +18,25 @@ echo
 echo '```'
 cat "$results/machine.txt"
 echo '```'
+peers=$root/benchmarks/results/siconos_hard_cases
+[ -f "$peers/summary.csv" ] || exit 0
+cat <<'END_OF_PEERS'
+
+## Hard cases and another solver
+
+`benchmarks/run.sh siconos_hard_cases`: the contact problem of the first step of hard cases (spheres; the three cylinders: disks), exported to FCLIB and given to
+Siconos (Debian's python3-siconos 4.4; all options but tolerance and the limit of iterations at their defaults) and to `galet solve`'s solvers, from r = 0 and with 10 s of
+processor time for a solve. What should be zero is the motion, `motion` = largest |u|/(g Δt) of a contact; `force` is the largest error of a normal force over the
+weight on the floor, where statics says it. `seconds`: the first answer, of those asked for by tens from 10⁻³ on, that has both below 10⁻³; `asked` is what its solver was
+asked for, in its own measure; `least_`: the best of all answers.
+
+END_OF_PEERS
+awk -F, '{ gsub(/"/, ""); printf "|"; for (k = 1; k <= NF; ++k) printf " %s |", $k; print "";
+           if (NR == 1) { printf "|"; for (k = 1; k <= NF; ++k) printf "---|"; print "" } }' "$peers/summary.csv"
+[ ! -f "$peers/reading.md" ] || { echo; cat "$peers/reading.md"; }
+echo
+echo "Measured on:"
+echo
+echo '```'
+cat "$peers/machine.txt"
+echo '```'

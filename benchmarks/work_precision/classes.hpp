@@ -32,6 +32,7 @@ SceneClass gas_class();
 /// Dense flow at that inertial number.
 SceneClass flow_class(double inertial_number);
 SceneClass biaxial_class();
+SceneClass triaxial_class();
 
 /// Every class, cheap ones first.
 std::vector<SceneClass> all_classes();

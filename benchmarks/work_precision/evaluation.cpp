@@ -23,14 +23,6 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-void mark_front(std::vector<JudgedRow>& rows) {
-  for (JudgedRow& each : rows)
-    each.front = std::none_of(rows.begin(), rows.end(), [&](const JudgedRow& other) {
-      return &other != &each && other.row.setting.engine == each.row.setting.engine && other.cost <= each.cost &&
-             other.error <= each.error;
-    });
-}
-
 /// The front of an engine, from the cheapest row on.
 std::vector<const JudgedRow*> front_of(const std::vector<JudgedRow>& rows, EngineKind engine) {
   std::vector<const JudgedRow*> front;
@@ -197,6 +189,14 @@ RigidLimit limit_of(const std::vector<Row>& rows, std::size_t quantity, double p
   return rigid_limit(md, cd, power);
 }
 
+void mark_front(std::vector<JudgedRow>& rows) {
+  for (JudgedRow& each : rows)
+    each.front = std::none_of(rows.begin(), rows.end(), [&](const JudgedRow& other) {
+      return &other != &each && other.row.setting.engine == each.row.setting.engine && other.cost <= each.cost &&
+             other.error <= each.error;
+    });
+}
+
 std::vector<JudgedClass> judge(const std::vector<SceneClass>& classes, const std::vector<Row>& rows) {
   std::vector<JudgedClass> all;
   for (const SceneClass& which : classes) {
@@ -208,10 +208,12 @@ std::vector<JudgedClass> judge(const std::vector<SceneClass>& classes, const std
     const std::vector<Estimate> values = estimates(own, 0);
     const Estimate limit = which.truth == Truth::limit ? limit_of(own, 0, which.power).combined : Estimate{};
     for (std::size_t k = 0; k < own.size(); ++k) {
-      JudgedRow each{own[k], own[k].seconds / own[k].extent, values[k].value, 0, false, false};
+      JudgedRow each{.row = own[k], .cost = own[k].seconds / own[k].extent, .error = values[k].value};
+      each.deviation = each.error;
       if (which.truth == Truth::limit) {
         const Estimate off = deviation(values[k], limit);
         each.uncertainty = off.error / std::abs(limit.value);
+        each.deviation = off.value / std::abs(limit.value);
         each.error = std::max(std::abs(off.value), off.error) / std::abs(limit.value);
         each.noise = std::abs(off.value) < 2 * off.error;
       }
@@ -249,6 +251,7 @@ void evaluate(const std::vector<SceneClass>& classes, const std::vector<Row>& ro
   write_csv(folder + "/work.csv", work_table(judged));
   write_csv(folder + "/at_error.csv", error_table(judged));
   write_csv(folder + "/crossover.csv", crossover_table(judged));
+  write_csv(folder + "/crossings.csv", crossings(judged));
   write_csv(folder + "/cost.csv", cost_laws(judged));
   write_csv(folder + "/limit.csv", limit_orders(judged));
   for (const auto& [which, own] : judged) draw(which, own, folder);

@@ -24,11 +24,15 @@ namespace galet::precision {
 struct JudgedRow {
   Row row;
   double cost = 0, error = 0, uncertainty = 0;
-  bool noise = false;  ///< the error is no larger than its noise
+  double deviation = 0;  ///< (value - limit) / |limit|; exact classes: the error
+  bool noise = false;    ///< the error is no larger than its noise
   bool front = false;
 };
 
 using JudgedClass = std::pair<SceneClass, std::vector<JudgedRow>>;
+
+/// Sets `front` of each row.
+void mark_front(std::vector<JudgedRow>& rows);
 
 /// Value of each row in the quantity with that index, as said above.
 std::vector<Estimate> estimates(const std::vector<Row>& rows, std::size_t quantity);
@@ -51,7 +55,11 @@ CsvTable cost_laws(const std::vector<JudgedClass>& judged);
 /// Deviations of md from the rigid limit over kappa, and their orders, quantity by quantity (laws.cpp).
 CsvTable limit_orders(const std::vector<JudgedClass>& judged);
 
-/// Writes work.csv, at_error.csv, crossover.csv, cost.csv, limit.csv and CLASS.svg into the folder.
+/// Errors at which one engine overtakes the other, with the interval that the noise of errors and costs leaves
+/// (crossings.cpp).
+CsvTable crossings(const std::vector<JudgedClass>& judged);
+
+/// Writes work.csv, at_error.csv, crossover.csv, crossings.csv, cost.csv, limit.csv and CLASS.svg into the folder.
 void evaluate(const std::vector<SceneClass>& classes, const std::vector<Row>& rows, const std::string& folder);
 
 }  // namespace galet::precision

@@ -172,8 +172,8 @@ SceneClass biaxial_class() {
 }
 
 std::vector<SceneClass> all_classes() {
-  return {impact_class(),  column_class(),  packing_class(), gas_class(),
-          biaxial_class(), flow_class(0.1), flow_class(0.01)};
+  return {impact_class(),  column_class(),   packing_class(), gas_class(),
+          biaxial_class(), triaxial_class(), flow_class(0.1), flow_class(0.01)};
 }
 
 }  // namespace galet::precision

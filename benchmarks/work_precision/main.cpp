@@ -5,7 +5,7 @@
 //
 // OUT/rows.csv keeps each row as it is made: a run that was stopped goes on where it was. From the rows follow
 // OUT/work.csv (error of each row, and whether no other row of its engine is both cheaper and better), crossover.csv,
-// cost.csv, limit.csv and a figure per class (evaluation.hpp).
+// crossings.csv, cost.csv, limit.csv and a figure per class (evaluation.hpp).
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

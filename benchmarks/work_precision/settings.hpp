@@ -24,15 +24,16 @@ inline void apply(const Setting& setting, Scene& scene) {
   }
 }
 
-/// An engine on a scene of disks; only the steps are timed.
+/// An engine on a scene of disks or spheres; only the steps are timed.
+template <int D = 2>
 class Measured {
  public:
   Measured(const Setting& setting, const Scene& scene)
-      : setting_(setting), trial_(std::make_unique<verify::Trial<2>>(report_, setting.engine, scene)) {}
-  Measured(const Setting& setting, const Scene& scene, const Sample<2>& start)
-      : setting_(setting), trial_(std::make_unique<verify::Trial<2>>(report_, setting.engine, scene, start)) {}
+      : setting_(setting), trial_(std::make_unique<verify::Trial<D>>(report_, setting.engine, scene)) {}
+  Measured(const Setting& setting, const Scene& scene, const Sample<D>& start)
+      : setting_(setting), trial_(std::make_unique<verify::Trial<D>>(report_, setting.engine, scene, start)) {}
 
-  verify::Trial<2>& trial() { return *trial_; }
+  verify::Trial<D>& trial() { return *trial_; }
   void steps(long count) {
     const double before = thread_seconds();
     trial_->advance(count);
@@ -60,7 +61,7 @@ class Measured {
  private:
   Setting setting_;
   verify::Report report_;
-  std::unique_ptr<verify::Trial<2>> trial_;
+  std::unique_ptr<verify::Trial<D>> trial_;
   double seconds_ = 0;
   long before_ = 0;
   SolverSummary summary_;

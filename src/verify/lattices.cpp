@@ -78,6 +78,7 @@ void lattice_strength_rigid(Report& report) {
     const Strength found = strength(EngineKind::cd, 2, false, friction, report);
     report.relative(fmt::format("sigma_1 / sigma_3, mu = {}, nearest of what is possible", friction), found.ratio,
                     std::clamp(found.ratio, rowe_limit(0), rowe_limit(friction)), 0.02, pace);
+    // Without friction W is singular and steps of the collapse miss the tolerance (docs/theory.md, rigid limit).
     if (friction > 0)
       report.small(fmt::format("steps above the tolerance, mu = {}", friction), static_cast<double>(found.missed), 0,
                    "what moves although rest is possible must be a solution, to 1e-8");

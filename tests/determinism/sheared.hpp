@@ -4,6 +4,7 @@
 #include "common/core/archive.hpp"
 #include "common/core/parallel.hpp"
 #include "tests/support/laws.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace galet::test {
@@ -50,7 +51,7 @@ template <int D>
 std::unique_ptr<Engine<D>> large_run(EngineKind kind, double pressure, const RichLaw* law = nullptr) {
   return dense_run<D>(kind, D == 2 ? 40 : 10, pressure, law);
 }
-inline long large_steps(EngineKind kind) { return kind == EngineKind::md ? 60 : 3; }
+inline long large_steps(EngineKind kind) { return kind == EngineKind::md ? (sanitized ? 30 : 60) : 3; }
 
 template <int D>
 std::unique_ptr<Engine<D>> small_run(EngineKind kind, const RichLaw* law = nullptr) {
