@@ -30,6 +30,7 @@
 #                    mistakes
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB, beside Siconos where it is installed (about ten
 #                    minutes); skipped where that is not set
+#   solver_starts    solvers on the large pile of disks of this folder from seven perturbed starts; likewise
 #   solver_settings  settings of momentum, chosen on one half of these problems and looked at on the other; likewise
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
@@ -111,7 +112,7 @@ for name in "${names[@]}"; do
         GALET_KILLS=200 "$bin/tests/command/command_tests"
         "$bin/tests/long_tests" --gtest_filter='Mutations.*'
       } | grep -v '^Note\|^Running\|^ *$\|RUN\|^\[---' | sed 's/ ([0-9]* ms.*)//; s/, where GetParam() = .*//' | tee "$out/faults.txt" ;;
-    solver_profile | solver_settings)
+    solver_profile | solver_settings | solver_starts)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"
         rmdir --ignore-fail-on-non-empty "$out"
@@ -119,6 +120,8 @@ for name in "${names[@]}"; do
       fi
       if [ "$name" = solver_settings ]; then
         "$bin/benchmarks/solver_settings" "$GALET_FCLIB" | tee "$out/solver_settings.csv"
+      elif [ "$name" = solver_starts ]; then
+        "$bin/benchmarks/solver_starts" "$GALET_FCLIB/pile2d.hdf5" 1 | tee "$out/pile2d.csv"
       else
         "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 2
       fi ;;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "cd/discrete/fclib.hpp"

@@ -383,3 +383,14 @@ END
   echo
   measured_on solver_settings
 fi
+if [ -f "$results/solver_starts/pile2d.csv" ]; then
+  cat <<'END'
+### A pile of disks from seven perturbed starts
+
+`GALET_FCLIB=FOLDER benchmarks/run.sh solver_starts`: pile2d (5442 contacts, W stored), 1 second each; how many starts came to the error, median and largest of
+their processor times.
+
+END
+  csv_table "$results/solver_starts/pile2d.csv"
+  measured_on solver_starts
+fi

@@ -12,7 +12,7 @@
 namespace galet::cd::siconos_test {
 namespace {
 
-/// M v = H r + f and u = H^T v + w, solved by Siconos' own Gauss-Seidel to its own error 1e-9; prints r.
+/// M v = H r + f and u = H^T v + w, solved by Siconos' own Gauss-Seidel to its own error 1e-5; prints r.
 constexpr const char* script = R"(
 import warnings
 warnings.simplefilter("ignore")
@@ -28,11 +28,12 @@ def matrix(name):
 problem = sn.GlobalFrictionContactProblem()
 problem.dimension = int(form["spacedim"][0])
 problem.M, problem.H = matrix("M"), matrix("H")
-problem.q, problem.b, problem.mu = form["vectors/f"][:], form["vectors/w"][:], form["vectors/mu"][:]
-problem.numberOfContacts = len(problem.mu)
+mu = form["vectors/mu"][:]
+problem.numberOfContacts = len(mu)
+problem.q, problem.b, problem.mu = form["vectors/f"][:], form["vectors/w"][:], mu
 options = sn.SolverOptions(sn.SICONOS_GLOBAL_FRICTION_3D_NSGS_WR)
-options.dparam[sn.SICONOS_DPARAM_TOL] = 1e-9
-options.iparam[sn.SICONOS_IPARAM_MAX_ITER] = 200000
+options.dparam[sn.SICONOS_DPARAM_TOL] = 1e-5
+options.iparam[sn.SICONOS_IPARAM_MAX_ITER] = 50000
 rows, freedoms = problem.H.shape[1], problem.M.shape[0]
 r, u, v = np.zeros(rows), np.zeros(rows), np.zeros(freedoms)
 info = sn.gfc3d_driver(problem, r, u, v, options)
@@ -64,8 +65,9 @@ TEST(Siconos, SolvesTheGlobalFormOfAStep) {
   EXPECT_GT(*std::max_element(r.begin(), r.end()), 0);
   const ScaledProblem<3> local(reduced(step.global));
   const auto theirs = local.scaled(r), ours = local.scaled(step.r);
-  // Siconos' error counts in the problem's units, where blocks of W are some 1/mass = 1: errS is of its order.
-  EXPECT_LT(discrete_error<3>(local, theirs).scaled, 1e-7);
+  // Siconos' error counts in the problem's units, relative to the largest of |q|, |r| and |u|; with blocks of W between
+  // 1 and 4 the two differ by a factor of a few.
+  EXPECT_LT(discrete_error<3>(local, theirs).scaled, 1e-4);
   EXPECT_LT(discrete_error<3>(local, ours).scaled, 1e-7);
 }
 
