@@ -30,7 +30,10 @@
 #   gradient_flows   inclined plane (stop and flow) and annular shear beside homogeneous shear, both engines
 #   faults           runs of both engines killed at 200 random moments each, a full file system, 1e4 damaged checkpoints, 1e5 scenes with
 #                    mistakes
-#   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB; skipped where that is not set
+#   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB, beside Siconos where it is installed (about ten
+#                    minutes); skipped where that is not set
+#   solver_starts    solvers on the large pile of disks of this folder from seven perturbed starts; likewise
+#   solver_settings  settings of momentum, chosen on one half of these problems and looked at on the other; likewise
 #
 # Results go to benchmarks/results/NAME, each with machine.txt beside it; docs/validation.md and docs/verification.md are then made from them.
 set -euo pipefail
@@ -126,13 +129,19 @@ for name in "${names[@]}"; do
         GALET_KILLS=200 "$bin/tests/command/command_tests"
         "$bin/tests/long_tests" --gtest_filter='Mutations.*'
       } | grep -v '^Note\|^Running\|^ *$\|RUN\|^\[---' | sed 's/ ([0-9]* ms.*)//; s/, where GetParam() = .*//' | tee "$out/faults.txt" ;;
-    solver_profile)
+    solver_profile | solver_settings | solver_starts)
       if [ -z "${GALET_FCLIB:-}" ]; then
         echo "skipped: GALET_FCLIB names no folder of FCLIB problems"
         rmdir --ignore-fail-on-non-empty "$out"
         continue
       fi
-      "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 2 ;;
+      if [ "$name" = solver_settings ]; then
+        "$bin/benchmarks/solver_settings" "$GALET_FCLIB" | tee "$out/solver_settings.csv"
+      elif [ "$name" = solver_starts ]; then
+        "$bin/benchmarks/solver_starts" "$GALET_FCLIB/pile2d.hdf5" 1 | tee "$out/pile2d.csv"
+      else
+        "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 2
+      fi ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac
   # Paths of this run say nothing to a reader.

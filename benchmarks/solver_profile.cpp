@@ -1,6 +1,11 @@
-// Every solver on every FCLIB problem of a folder: processor time to errors 1e-4, 1e-6 and 1e-8 in both measures.
+// Every solver on every FCLIB problem of a folder: processor time to errors 1e-4, 1e-6 and 1e-8 in both measures; those
+// of Siconos too where it is installed.
 //
 //   solver_profile FOLDER OUT [SECONDS]      SECONDS: processor time for each problem and solver (default 5)
+//
+// Siconos gets the same W, q and mu in a file, and its answers are measured by the same code (cd/discrete/error.hpp).
+// As it keeps no history it solves once for each of its tolerances (benchmarks/peers/siconos_solve.py), and the time to
+// an error is the least time of an answer below that error; each of these solves may take three times SECONDS.
 //
 // Writes OUT/times.csv (one row per problem, solver and measure; empty where the error was not reached) and, for each
 // measure, OUT/profile_errS and OUT/profile_errP: the share of problems that a solver brought to 1e-6 within a factor
@@ -13,14 +18,18 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "benchmarks/peers/siconos_run.hpp"
+#include "cd/discrete/error.hpp"
 #include "cd/discrete/fclib.hpp"
 #include "cd/discrete/solve.hpp"
 #include "common/core/error.hpp"
 #include "common/io/figure.hpp"
 #include "common/io/files.hpp"
+#include "common/io/scratch_folder.hpp"
 
 namespace {
 
@@ -32,6 +41,14 @@ constexpr const char* measures[] = {"errS", "errP"};
 
 struct Times {
   std::array<std::array<double, errors.size()>, 2> seconds;  ///< by measure and error
+
+  Times() {
+    for (auto& row : seconds) row.fill(never);
+  }
+  void note(std::size_t measure, double error, double at) {
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      if (error <= errors[k]) seconds[measure][k] = std::min(seconds[measure][k], std::max(at, 1e-5));
+  }
 };
 
 Times times_of(const cd::DiscreteProblem& problem, const std::string& solver, double limit) {
@@ -42,17 +59,33 @@ Times times_of(const cd::DiscreteProblem& problem, const std::string& solver, do
   options.history = true;
   const cd::DiscreteSolution solution = cd::solve(problem, options);
   Times times;
-  for (auto& row : times.seconds) row.fill(never);
-  const auto note = [&](std::size_t measure, double error, double seconds) {
-    for (std::size_t k = 0; k < errors.size(); ++k)
-      if (error <= errors[k]) times.seconds[measure][k] = std::min(times.seconds[measure][k], std::max(seconds, 1e-5));
-  };
   for (const cd::DiscreteHistory& at : solution.history) {
-    note(0, at.error, at.seconds);
-    note(1, at.siconos_error, at.seconds);
+    times.note(0, at.error, at.seconds);
+    times.note(1, at.siconos_error, at.seconds);
   }
-  note(0, solution.error, solution.seconds);
-  note(1, solution.siconos_error, solution.seconds);
+  times.note(0, solution.error, solution.seconds);
+  times.note(1, solution.siconos_error, solution.seconds);
+  return times;
+}
+
+template <int B>
+cd::DiscreteError error_in_blocks(const cd::DiscreteProblem& problem, const std::vector<double>& r) {
+  const cd::ScaledProblem<B> scaled(problem);
+  const auto blocks = scaled.scaled(r);
+  return cd::discrete_error<B>(scaled, blocks);
+}
+
+Times times_of_siconos(const cd::DiscreteProblem& problem, const std::string& solver, double limit,
+                       const std::filesystem::path& folder) {
+  const auto error_of = problem.block == 2   ? error_in_blocks<2>
+                        : problem.block == 3 ? error_in_blocks<3>
+                                             : error_in_blocks<5>;
+  Times times;
+  for (const bench::SiconosAnswer& answer : bench::run_siconos(problem, solver, 3 * limit, folder)) {
+    const cd::DiscreteError error = error_of(problem, answer.r);
+    times.note(0, error.scaled, answer.seconds);
+    times.note(1, error.siconos, answer.seconds);
+  }
   return times;
 }
 
@@ -84,6 +117,17 @@ void write_profile(const std::string& stem, std::size_t measure, const std::map<
   if (!figure.series.empty()) write_figure(stem, figure);
 }
 
+std::string rows_of(const std::string& name, const cd::DiscreteProblem& problem, const std::string& solver,
+                    const Times& times) {
+  std::string rows;
+  for (std::size_t measure = 0; measure < 2; ++measure) {
+    rows += fmt::format("{},{},{},{},{}", name, problem.contacts(), problem.block, solver, measures[measure]);
+    for (const double seconds : times.seconds[measure]) rows += seconds < never ? fmt::format(",{:.3g}", seconds) : ",";
+    rows += "\n";
+  }
+  return rows;
+}
+
 int profile(const std::string& folder, const std::string& out, double limit) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -95,21 +139,21 @@ int profile(const std::string& folder, const std::string& out, double limit) {
   for (const double error : errors) table += fmt::format(",seconds to {:g}", error);
   table += "\n";
   std::map<std::string, std::vector<Times>> all;
+  const ScratchFolder scratch;
   for (const auto& file : files) {
     const cd::DiscreteProblem problem = cd::read_fclib(file.string()).problem;
-    for (const std::string_view solver : cd::discrete_solvers()) {
-      const Times times = times_of(problem, std::string(solver), limit);
-      all[std::string(solver)].push_back(times);
-      for (std::size_t measure = 0; measure < 2; ++measure) {
-        table += fmt::format("{},{},{},{},{}", file.stem().string(), problem.contacts(), problem.block, solver,
-                             measures[measure]);
-        for (const double seconds : times.seconds[measure])
-          table += seconds < never ? fmt::format(",{:.3g}", seconds) : ",";
-        table += "\n";
-      }
-    }
+    const auto add = [&](const std::string& solver, const Times& times) {
+      all[solver].resize(static_cast<std::size_t>(&file - files.data()));  // solvers that some problems have not
+      all[solver].push_back(times);
+      table += rows_of(file.stem().string(), problem, solver, times);
+    };
+    for (const std::string_view solver : cd::discrete_solvers())
+      add(std::string(solver), times_of(problem, std::string(solver), limit));
+    for (const std::string& solver : bench::siconos_solvers(problem.block))
+      add("siconos " + solver, times_of_siconos(problem, solver, limit, scratch.path()));
     fmt::print(stderr, "{}\n", file.stem().string());
   }
+  for (auto& [solver, times] : all) times.resize(files.size());
   write_file((std::filesystem::path(out) / "times.csv").string(), table);
   fmt::print("{}", table);
   for (std::size_t measure = 0; measure < 2; ++measure)

@@ -7,6 +7,28 @@ results=$root/benchmarks/results
 # block FILE...: the files' contents as a block of code.
 block() { echo '```'; cat "$@"; echo '```'; echo; }
 measured_on() { echo "Measured on:"; echo; block "$results/$1/machine.txt"; }
+# siconos_ratios TIMES.csv: per problem and measure Siconos' best time over that of auto at 1e-4, 1e-6 and 1e-8. The limits
+# are those of run.sh: 2 s, Siconos 6 s.
+siconos_ratios() {
+  awk -F, '
+    NR == 1 { print "problem,contacts,measure,ratio at 1e-4,at 1e-6,at 1e-8,quickest of Siconos at 1e-4"; next }
+    $2 < 10 { next }
+    { key = $1 "," $2 "," $5; if (!(key in seen)) { seen[key] = 1; order[++count] = key } }
+    $4 == "auto" { for (k = 0; k < 3; ++k) own[key, k] = $(6 + k) }
+    $4 ~ /^siconos / {
+      for (k = 0; k < 3; ++k)
+        if ($(6 + k) != "" && (!((key, k) in best) || $(6 + k) + 0 < best[key, k])) { best[key, k] = $(6 + k) + 0; who[key, k] = substr($4, 9) }
+    }
+    END {
+      for (n = 1; n <= count; ++n) {
+        key = order[n]; row = key
+        for (k = 0; k < 3; ++k)
+          row = row "," (own[key, k] == "" ? "-" : (key, k) in best ? sprintf("%.3g", best[key, k] / own[key, k]) : sprintf("> %.3g", 6 / own[key, k]))
+        print row "," who[key, 0]
+      }
+    }' "$1"
+}
+
 # csv_table FILE: a CSV file as a Markdown table.
 csv_table() { awk -F, '{ gsub(/"/, ""); printf "|"; for (k = 1; k <= NF; ++k) printf " %s |", $k; print "";
                        if (NR == 1) { printf "|"; for (k = 1; k <= NF; ++k) printf "---|"; print "" } }' "$1"; echo; }
@@ -338,15 +360,57 @@ cat <<'END'
 ## Contact solvers on problems of other codes
 
 `GALET_FCLIB=FOLDER benchmarks/run.sh solver_profile`: processor seconds until each error was reached, automatic choice of solver; empty: not
-reached in the time given (the two large piles and the rocks need more than that or are not solved to 1e-8 at all). The figure shows every
+reached in the time given (the two large piles and the rocks need more than that or are not solved to 1e-8 at all). The figures show every
 solver: the share of the problems that it brought to 1e-6 within a factor of the fastest one's time.
 
 END
 { head -1 "$results/solver_profile/times.csv"; grep ',auto,' "$results/solver_profile/times.csv"; } >"${TMPDIR:-/tmp}/galet_auto_$$.csv"
 csv_table "${TMPDIR:-/tmp}/galet_auto_$$.csv"
 rm -f "${TMPDIR:-/tmp}/galet_auto_$$.csv"
+if grep -q ',siconos ' "$results/solver_profile/times.csv"; then
+  cat <<'END'
+Beside Siconos 4.4 (Debian), in the same run on the same W, q and μ: time of the quickest of its solvers tried (Gauss-Seidel; in space also
+Alart and Curnier's Newton method and ADMM, with rolling ADMM; its own defaults, W in blocks) over that of the automatic choice, at equal errors
+by our code. Siconos' times are those of its driver alone, its own tests of the error included (ours leave them out: ratios below 1.5 mean nothing); it
+may take three times as long. `>`: Siconos did not get there, and the least that its time allowed makes of the ratio; `-`: the automatic choice
+did not get there in its time. Problems of a few contacts are not shown: their times are those of calls.
+
+END
+  siconos_ratios "$results/solver_profile/times.csv" >"${TMPDIR:-/tmp}/galet_siconos_$$.csv"
+  csv_table "${TMPDIR:-/tmp}/galet_siconos_$$.csv"
+  rm -f "${TMPDIR:-/tmp}/galet_siconos_$$.csv"
+fi
 cat <<'END'
-![performance profile](../benchmarks/results/solver_profile/profile_errS.svg)
+![performance profile, errS](../benchmarks/results/solver_profile/profile_errS.svg)
+![performance profile, errP](../benchmarks/results/solver_profile/profile_errP.svg)
 
 END
 measured_on solver_profile
+if [ -f "$results/solver_settings/solver_settings.csv" ]; then
+  cat <<'END'
+### Settings of momentum, chosen on one half of these problems
+
+`GALET_FCLIB=FOLDER benchmarks/run.sh solver_settings`: problems by name in turn in half 1 and half 2; solved: errS = 1e-6 within half a second;
+means of the times, unsolved problems as twice that.
+
+END
+  grep -v '^#' "$results/solver_settings/solver_settings.csv" >"${TMPDIR:-/tmp}/galet_settings_$$.csv"
+  csv_table "${TMPDIR:-/tmp}/galet_settings_$$.csv"
+  rm -f "${TMPDIR:-/tmp}/galet_settings_$$.csv"
+  echo '```'
+  grep '^#' "$results/solver_settings/solver_settings.csv"
+  echo '```'
+  echo
+  measured_on solver_settings
+fi
+if [ -f "$results/solver_starts/pile2d.csv" ]; then
+  cat <<'END'
+### A pile of disks from seven perturbed starts
+
+`GALET_FCLIB=FOLDER benchmarks/run.sh solver_starts`: pile2d (5442 contacts, W stored), 1 second each; how many starts came to the error, median and largest of
+their processor times.
+
+END
+  csv_table "$results/solver_starts/pile2d.csv"
+  measured_on solver_starts
+fi

@@ -86,8 +86,8 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
     prepare_problem();
   }
 
-  StepProblem step_with_problem() override {
-    StepProblem problem;
+  StepProblem step_with_problem(ProblemForm form) override {
+    StepProblem problem{form};
     capture_ = &problem;
     try {
       step();
@@ -167,7 +167,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
                         0.5 * moved));
       fastest = std::max(fastest, fastest_of(iterate_.velocity));
     }
-    if (capture_ != nullptr) *capture_ = present_problem();
+    if (capture_ != nullptr) *capture_ = present_problem(capture_->form);
     StageTimer timer(profile_, Stage::grains);
     if (!compliant_) account();
     accept_velocities();
@@ -364,12 +364,12 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
   }
 
   /// The problem that was just solved.
-  StepProblem present_problem() const {
+  StepProblem present_problem(ProblemForm form) const {
     Iterate<Y> free = free_;
     Mat<D> virial = Mat<D>::Zero();
     if (cohesive_) attract(free, virial);
     add_to_hub(problem_, free, virial);
-    return DiscreteForm<Y>::of(problem_, free, iterate_.reaction);
+    return DiscreteForm<Y>::of(problem_, free, iterate_.reaction, form);
   }
 
   void note(const SolveReport& report) {

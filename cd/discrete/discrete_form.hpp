@@ -15,11 +15,19 @@
 //                           q = 0; their impulses are then zero in every solution
 //   rolling, spheres 5      (N, T1, T2, R1, R2), where no pair resists pivoting; else refused
 //
-// Cost: contacts times neighbouring contacts; with a hub every pair of contacts, refused above 3000 of them.
+// The global form (cd/discrete/global_problem.hpp) has a freedom for each direction in which a body that touches
+// something can be pushed (axes, or those that make its mobility diagonal), for each mode of the hub, for each elastic
+// direction of a contact (a body of mass 1/compliance that only it moves) and, so that its local form is the one above,
+// for each direction of rolling disks that is coupled to nothing. M is then diagonal. What prescribed motions, offsets
+// and lags make of u is in w.
+//
+// Cost: contacts times neighbouring contacts; with a hub every pair of contacts, refused above 3000 of them; global
+// form: contacts.
 #pragma once
 
 #include <map>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "cd/discrete/step_problem.hpp"
@@ -37,9 +45,10 @@ class DiscreteForm {
   static constexpr int most_hub_contacts = 3000;
 
   /// `free`: velocities without any reaction (attraction included); `reaction`: the engine's impulses.
-  static StepProblem of(const Problem<Y>& problem, const Iterate<Y>& free, const Column<Reaction<Y>>& reaction) {
+  static StepProblem of(const Problem<Y>& problem, const Iterate<Y>& free, const Column<Reaction<Y>>& reaction,
+                        ProblemForm wanted = ProblemForm::local) {
     const DiscreteForm form(problem);
-    StepProblem step;
+    StepProblem step{wanted};
     step.problem.block = block;
     for (std::size_t c = 0; c < form.kept_.size(); ++c) {
       const std::size_t k = form.kept_[c];
@@ -48,6 +57,10 @@ class DiscreteForm {
       if constexpr (Y.rolling) step.problem.mu_r.push_back(problem.laws[problem.law[k]].rolling);
       append(form.local(c, law_motion(problem, free, free.gradient, k, Components<Y>{})), step.problem.q);
       append(form.local(c, components<Y>(problem.normal[k], reaction[k])), step.r);
+    }
+    if (wanted == ProblemForm::global) {
+      form.make_global(free, step);
+      return step;
     }
     form.fill_matrix(step.problem);
     step.u = step.problem.q;
@@ -93,11 +106,6 @@ class DiscreteForm {
         sides_[j].push_back({contact, jacobian(contact, 1, arm_j(k))});
       }
     }
-    if (!problem.hub.empty() && kept_.size() > most_hub_contacts)
-      throw InputError(
-          fmt::format("a stress-driven cell couples all {} contacts of this step: such a problem can be "
-                      "written for {} contacts at most",
-                      kept_.size(), most_hub_contacts));
   }
 
   static void append(const Values& values, std::vector<double>& to) {
@@ -226,6 +234,11 @@ class DiscreteForm {
   }
 
   void fill_matrix(DiscreteProblem& discrete) const {
+    if (!problem_.hub.empty() && kept_.size() > most_hub_contacts)
+      throw InputError(
+          fmt::format("a stress-driven cell couples all {} contacts of this step: such a problem can be "
+                      "written for {} contacts at most",
+                      kept_.size(), most_hub_contacts));
     std::vector<std::map<int, Block>> rows = upper_blocks();
     for (int c = 0; c < static_cast<int>(rows.size()); ++c)
       for (const auto& [d, part] : rows[c])
@@ -241,6 +254,114 @@ class DiscreteForm {
           }
         discrete.start.push_back(static_cast<std::int64_t>(discrete.value.size()));
       }
+  }
+
+  /// The freedoms of the global form while they are gathered.
+  struct Freedoms {
+    std::vector<double> mass, velocity;
+    std::vector<Eigen::Triplet<double, int>> entries;  ///< of H
+    std::vector<double> diagonal;                      ///< of W, by row
+
+    /// For a freedom of this mobility and free velocity; the next calls of move() are about it.
+    void begin(double mobility, double free) { mass.push_back(1 / mobility), velocity.push_back(free); }
+    /// u[row] changes by `share` of the freedom's velocity.
+    void move(int row, double share) {
+      if (share == 0) return;
+      entries.emplace_back(static_cast<int>(mass.size()) - 1, row, share);
+      diagonal[row] += share * share / mass.back();
+    }
+  };
+
+  /// Freedoms of a body in directions first .. first + size of its motion.
+  template <int size>
+  void add_body(std::size_t body, int first, const Eigen::Matrix<double, size, size>& answer,
+                const Eigen::Matrix<double, size, 1>& free, Freedoms& freedoms) const {
+    using Square = Eigen::Matrix<double, size, size>;
+    Square axes = Square::Identity();
+    Eigen::Matrix<double, size, 1> mobile = answer.diagonal();
+    if (!answer.isDiagonal(0)) {
+      const Eigen::SelfAdjointEigenSolver<Square> solver(answer);
+      axes = solver.eigenvectors(), mobile = solver.eigenvalues();
+    }
+    const double least = 1e-12 * mobile.maxCoeff();  // what a plane can't do, to rounding
+    for (int a = 0; a < size; ++a) {
+      if (!(mobile[a] > least)) continue;
+      freedoms.begin(mobile[a], axes.col(a).dot(free));
+      for (const Side& side : sides_[body])
+        for (int row = 0; row < block; ++row)
+          freedoms.move(block * side.contact + row, side.jacobian.template block<1, size>(row, first) * axes.col(a));
+    }
+  }
+
+  void add_bodies(const Iterate<Y>& free, Freedoms& freedoms) const {
+    for (std::size_t body = 0; body < sides_.size(); ++body) {
+      if (sides_[body].empty()) continue;
+      const Mobility answer = mobility(static_cast<int>(body));
+      add_body<D>(body, 0, answer.template topLeftCorner<D, D>(), free.velocity[body], freedoms);
+      if constexpr (Y.friction) {
+        Eigen::Matrix<double, spins, 1> spin;
+        if constexpr (D == 2)
+          spin << free.spin[body];
+        else
+          spin = free.spin[body];
+        add_body<spins>(body, D, answer.template bottomRightCorner<spins, spins>(), spin, freedoms);
+      }
+    }
+  }
+
+  /// What only one row of a contact knows.
+  void add_single_rows(Freedoms& freedoms) const {
+    const auto add = [&](int row, double mobility) {
+      if (!(mobility > 0)) return;
+      freedoms.begin(mobility, 0);
+      freedoms.move(row, 1);
+    };
+    for (int c = 0; c < static_cast<int>(kept_.size()); ++c) {
+      if (problem_.compliant) {
+        const Compliance& compliance = problem_.compliance[kept_[c]];
+        add(block * c, compliance.normal);
+        for (int a = 1; a < D; ++a) add(block * c + a, compliance.tangential);
+        if constexpr (Y.rolling)
+          for (int a = 3; a < 2 + D; ++a) add(block * c + a, compliance.rolling);
+      }
+      if constexpr (Y.rolling && D == 2)
+        for (const int a : {1, 3}) add(block * c + a + 1, freedoms.diagonal[block * c + a]);
+    }
+  }
+
+  /// Takes mu and q from step.problem.
+  void make_global(const Iterate<Y>& free, StepProblem& step) const {
+    const int rows = step.problem.rows();
+    Freedoms freedoms;
+    freedoms.diagonal.assign(rows, 0.0);
+    add_bodies(free, freedoms);
+    for (std::size_t m = 0; m < problem_.hub.size(); ++m) {
+      freedoms.begin(problem_.hub[m].inverse_inertia, free.hub_rate[m]);
+      for (int c = 0; c < static_cast<int>(kept_.size()); ++c) {
+        const Values strain = motion_of(c, problem_.hub[m].direction);
+        for (int a = 0; a < block; ++a) freedoms.move(block * c + a, strain[a]);
+      }
+    }
+    add_single_rows(freedoms);
+
+    const auto count = static_cast<int>(freedoms.mass.size());
+    GlobalProblem& global = step.global;
+    global.block = block, global.mu = step.problem.mu, global.mu_r = step.problem.mu_r;
+    global.jacobian.resize(count, rows);
+    global.jacobian.setFromTriplets(freedoms.entries.begin(), freedoms.entries.end());
+    const Eigen::VectorXd mass = Eigen::VectorXd::Map(freedoms.mass.data(), count);
+    const Eigen::VectorXd velocity = Eigen::VectorXd::Map(freedoms.velocity.data(), count);
+    global.mass = mass.asDiagonal();
+    const auto list = [](const Eigen::VectorXd& values) {
+      return std::vector<double>(values.data(), values.data() + values.size());
+    };
+    const Eigen::VectorXd w =
+        Eigen::VectorXd::Map(step.problem.q.data(), rows) - global.jacobian.transpose() * velocity;
+    const Eigen::VectorXd v =
+        velocity + (global.jacobian * Eigen::VectorXd::Map(step.r.data(), rows)).cwiseQuotient(mass);
+    global.f = list(mass.cwiseProduct(velocity)), global.w = list(w);
+    step.v = list(v), step.u = list(global.jacobian.transpose() * v + w);
+    step.problem = {};
   }
 
   const Problem<Y>& problem_;

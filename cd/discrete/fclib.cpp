@@ -1,10 +1,9 @@
 #include "cd/discrete/fclib.hpp"
 
 #include <limits>
+#include <stdexcept>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include "common/core/error.hpp"
@@ -146,7 +145,8 @@ int read_block(const Reader& reader, const std::string& form) {
   return static_cast<int>(block);
 }
 
-void read_bounds(const Reader& reader, const std::string& form, int rows, DiscreteProblem& problem) {
+template <class Problem>
+void read_bounds(const Reader& reader, const std::string& form, int rows, Problem& problem) {
   if (rows % problem.block != 0)
     reader.refuse(fmt::format("'{}' has {} rows: expected a multiple of spacedim = {}", form, rows, problem.block));
   const std::size_t contacts = static_cast<std::size_t>(rows / problem.block);
@@ -184,50 +184,70 @@ void read_local(const Reader& reader, DiscreteProblem& problem) {
   take_matrix(w, problem);
 }
 
-/// M^-1 applied to the columns of H and to f. M is symmetric positive definite but for gyroscopic terms.
-template <class Take>
-void solve_mass(const Reader& reader, const std::string& name, const Columns& mass, const Take& take) {
-  const Columns transposed = mass.transpose();
-  const double symmetric_to_rounding = 1e-14;
-  if ((mass - transposed).norm() <= symmetric_to_rounding * mass.norm()) {
-    const Eigen::SimplicialLDLT<Columns> factor(mass);
-    if (factor.info() != Eigen::Success || (mass.rows() > 0 && !(factor.vectorD().minCoeff() > 0)))
-      reader.refuse(fmt::format("matrix '{}' is not positive definite: expected masses and inertias", name));
-    take(factor);
-  } else {
-    Eigen::SparseLU<Columns> factor;
-    factor.compute(mass);
-    if (factor.info() != Eigen::Success) reader.refuse(fmt::format("matrix '{}' is singular", name));
-    take(factor);
-  }
-}
-
-void read_global(const Reader& reader, const std::string& form, DiscreteProblem& problem) {
+GlobalProblem read_global(const Reader& reader, const std::string& form) {
   refuse_equalities(reader, form, {"G"});
+  GlobalProblem problem;
+  problem.block = read_block(reader, form);
   const Columns mass = read_matrix(reader, form + "/M"), h = read_matrix(reader, form + "/H");
   if (mass.rows() != mass.cols() || mass.rows() != h.rows())
     reader.refuse(fmt::format("'{0}/M' is {1} x {2} and '{0}/H' {3} x {4}: expected a square M, with as many rows as H",
                               form, mass.rows(), mass.cols(), h.rows(), h.cols()));
   read_bounds(reader, form, static_cast<int>(h.cols()), problem);
-  const auto& w = reader.reals(form + "/vectors/w", static_cast<std::size_t>(h.cols()), "one for each column of H");
-  const auto& f = reader.reals(form + "/vectors/f", static_cast<std::size_t>(h.rows()), "one for each row of M");
-  for (const double value : f)
+  problem.w = reader.reals(form + "/vectors/w", static_cast<std::size_t>(h.cols()), "one for each column of H");
+  problem.f = reader.reals(form + "/vectors/f", static_cast<std::size_t>(h.rows()), "one for each row of M");
+  for (const double value : problem.f)
     if (!std::isfinite(value))
       reader.refuse(fmt::format("dataset '{}/vectors/f' holds a value that is not finite", form));
-  solve_mass(reader, form + "/M", mass, [&](const auto& factor) {
-    const Columns answer = factor.solve(h);
-    take_matrix(Rows(h.transpose() * answer), problem);
-    const Eigen::VectorXd v = factor.solve(Eigen::Map<const Eigen::VectorXd>(f.data(), h.rows()));
-    const Eigen::VectorXd q = h.transpose() * v + Eigen::Map<const Eigen::VectorXd>(w.data(), h.cols());
-    problem.q.assign(q.data(), q.data() + q.size());
-  });
+  problem.mass = mass, problem.jacobian = h;
+  problem.title = reader.text(form + "/info/title");
+  problem.description = reader.text(form + "/info/description");
+  return problem;
 }
 
-void read_solution(const Reader& reader, FclibContent& content) {
+DiscreteProblem reduced_of_file(const Reader& reader, const std::string& form) {
+  const GlobalProblem problem = read_global(reader, form);
+  try {
+    return reduced(problem);
+  } catch (const std::invalid_argument& error) {
+    reader.refuse(fmt::format("matrix '{}/M' {}", form, error.what()));
+  }
+}
+
+/// Of a problem with so many rows; left empty where the file has none.
+void read_solution(const Reader& reader, std::size_t rows, std::vector<double>& u, std::vector<double>& r) {
   if (!reader.has("solution/r")) return;
-  const std::size_t rows = content.problem.q.size();
-  content.r = reader.reals("solution/r", rows, "one for each row of W");
-  content.u = reader.reals("solution/u", rows, "one for each row of W");
+  r = reader.reals("solution/r", rows, "one for each row of W");
+  u = reader.reals("solution/u", rows, "one for each row of W");
+}
+
+std::string form_of(const Reader& reader) {
+  for (const char* known : {"fclib_local", "fclib_global", "fclib_global_rolling"})
+    if (reader.has_group(known)) return known;
+  reader.refuse("this is not an FCLIB file: expected a group 'fclib_local', 'fclib_global' or 'fclib_global_rolling'");
+}
+
+void add_matrix(Columns matrix, const std::string& name, Archive& archive) {
+  matrix.makeCompressed();
+  const auto integer = [&](const char* field, Eigen::Index value) { archive.integers[name + field] = {value}; };
+  const auto entries = matrix.nonZeros();
+  integer("/m", matrix.rows()), integer("/n", matrix.cols()), integer("/nz", -1), integer("/nzmax", entries);
+  archive.integers[name + "/p"].assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1);
+  archive.integers[name + "/i"].assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + entries);
+  archive.reals[name + "/x"].assign(matrix.valuePtr(), matrix.valuePtr() + entries);
+}
+
+template <class Problem>
+void add_rest(const Problem& problem, const std::string& form, Archive& archive) {
+  archive.integers[form + "/spacedim"] = {problem.block};
+  archive.reals[form + "/vectors/mu"] = problem.mu;
+  archive.texts[form + "/info/title"] = problem.title;
+  archive.texts[form + "/info/description"] = problem.description;
+  archive.texts[form + "/info/math_info"] = "";
+}
+
+void require_solution(const std::vector<double>& u, const std::vector<double>& r, std::size_t rows) {
+  require(r.size() == u.size() && (r.empty() || r.size() == rows),
+          "a solution has as many numbers as the problem has rows");
 }
 
 }  // namespace
@@ -236,32 +256,64 @@ FclibContent read_fclib(const std::string& path) {
   const Reader reader(path);
   FclibContent content;
   DiscreteProblem& problem = content.problem;
-  std::string form;
-  for (const char* known : {"fclib_local", "fclib_global", "fclib_global_rolling"})
-    if (form.empty() && reader.has_group(known)) form = known;
-  if (form.empty())
-    reader.refuse(
-        "this is not an FCLIB file: expected a group 'fclib_local', 'fclib_global' or 'fclib_global_rolling'");
-  problem.block = read_block(reader, form);
-  if (form == "fclib_local")
+  const std::string form = form_of(reader);
+  if (form == "fclib_local") {
+    problem.block = read_block(reader, form);
     read_local(reader, problem);
-  else
-    read_global(reader, form, problem);
-  problem.title = reader.text(form + "/info/title");
-  problem.description = reader.text(form + "/info/description");
-  read_solution(reader, content);
+    problem.title = reader.text(form + "/info/title");
+    problem.description = reader.text(form + "/info/description");
+  } else {
+    problem = reduced_of_file(reader, form);
+  }
+  read_solution(reader, problem.q.size(), content.u, content.r);
   std::vector<Mistake> mistakes;
   for (const std::string& mistake : mistakes_of(problem)) mistakes.push_back({path, 0, 0, mistake});
   if (!mistakes.empty()) throw InputError(mistakes);
   return content;
 }
 
+FclibGlobalContent read_fclib_global(const std::string& path) {
+  const Reader reader(path);
+  const std::string form = form_of(reader);
+  if (form == "fclib_local") reader.refuse("this is a problem in local form: expected one in global form");
+  FclibGlobalContent content;
+  content.problem = read_global(reader, form);
+  read_solution(reader, content.problem.w.size(), content.u, content.r);
+  if (!content.r.empty()) content.v = reader.reals("solution/v", content.problem.f.size(), "one for each row of M");
+  return content;
+}
+
+void write_fclib(const std::string& path, const FclibGlobalContent& content) {
+  const GlobalProblem& problem = content.problem;
+  const auto rows = static_cast<std::size_t>(problem.jacobian.cols());
+  const auto freedoms = static_cast<std::size_t>(problem.jacobian.rows());
+  require(problem.mass.rows() == problem.mass.cols() && problem.mass.rows() == problem.jacobian.rows() &&
+              problem.f.size() == freedoms && problem.w.size() == rows &&
+              rows == static_cast<std::size_t>(problem.block) * problem.mu.size() &&
+              problem.mu_r.size() == (problem.block == 5 ? problem.mu.size() : 0),
+          "a problem whose sizes don't agree is not written");
+  require_solution(content.u, content.r, rows);
+  require(content.v.size() == (content.r.empty() ? 0 : freedoms), "a solution has as many velocities as M has rows");
+  const std::string form = problem.block == 5 ? "fclib_global_rolling" : "fclib_global";
+  Archive archive;
+  add_matrix(problem.mass, form + "/M", archive);
+  add_matrix(problem.jacobian, form + "/H", archive);
+  archive.reals[form + "/vectors/f"] = problem.f;
+  archive.reals[form + "/vectors/w"] = problem.w;
+  if (problem.block == 5) archive.reals[form + "/vectors/mu_r"] = problem.mu_r;
+  add_rest(problem, form, archive);
+  if (!content.r.empty()) {
+    archive.reals["solution/v"] = content.v;
+    archive.reals["solution/u"] = content.u, archive.reals["solution/r"] = content.r;
+  }
+  write_hdf5(path, archive);
+}
+
 void write_fclib(const std::string& path, const FclibContent& content) {
   const DiscreteProblem& problem = content.problem;
   const std::vector<std::string> mistakes = mistakes_of(problem);
   require(mistakes.empty(), mistakes.empty() ? "" : "a problem with mistakes is not written: " + mistakes.front());
-  require(content.r.size() == content.u.size() && (content.r.empty() || content.r.size() == problem.q.size()),
-          "a solution has as many numbers as the problem has rows");
+  require_solution(content.u, content.r, problem.q.size());
   require(problem.value.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
           "an FCLIB file can't hold that many entries of W");
   const std::vector<int> start(problem.start.begin(), problem.start.end());
@@ -269,18 +321,10 @@ void write_fclib(const std::string& path, const FclibContent& content) {
   const Columns w =
       Eigen::Map<const Rows>(rows, rows, entries, start.data(), problem.column.data(), problem.value.data());
   Archive archive;
-  const auto integer = [&](const std::string& name, int value) { archive.integers["fclib_local/" + name] = {value}; };
-  integer("spacedim", problem.block);
-  integer("W/m", rows), integer("W/n", rows), integer("W/nz", -1), integer("W/nzmax", entries);
-  archive.integers["fclib_local/W/p"].assign(w.outerIndexPtr(), w.outerIndexPtr() + rows + 1);
-  archive.integers["fclib_local/W/i"].assign(w.innerIndexPtr(), w.innerIndexPtr() + entries);
-  archive.reals["fclib_local/W/x"].assign(w.valuePtr(), w.valuePtr() + entries);
+  add_matrix(w, "fclib_local/W", archive);
   archive.reals["fclib_local/vectors/q"] = problem.q;
-  archive.reals["fclib_local/vectors/mu"] = problem.mu;
   if (problem.block == 5) archive.reals["fclib_local/vectors/mur"] = problem.mu_r;
-  archive.texts["fclib_local/info/title"] = problem.title;
-  archive.texts["fclib_local/info/description"] = problem.description;
-  archive.texts["fclib_local/info/math_info"] = "";
+  add_rest(problem, "fclib_local", archive);
   if (!content.r.empty()) archive.reals["solution/u"] = content.u, archive.reals["solution/r"] = content.r;
   write_hdf5(path, archive);
 }

@@ -5,17 +5,19 @@
 //                 read as W = H^T M^-1 H, q = H^T M^-1 f + w (sparse factorisation of M)
 //   spacedim: numbers per contact, 2, 3 or 5 (two of them rolling, bounded by mur); normal component first
 //   info: title, description, math_info (all optional)
-//   solution: u, r
+//   solution: u, r; of a global problem v too
 //
 // A matrix has m rows, n columns and nzmax places; nz >= 0: that many triplets (row i, column p, value x, equal places
 // are summed); nz = -1: compressed columns; nz = -2: compressed rows (p: where each begins, i: indices, x: values).
-// fclib_global_rolling is read as fclib_global, mu_r as mur. Equality constraints (G of a global problem, V and R of a
+// Global problems with rolling are the group fclib_global_rolling, whose bound of rolling is called mu_r; either name
+// is read in either place. Equality constraints (G of a global problem, V and R of a
 // local one) are refused: a DiscreteProblem has contacts only.
 // Source: Acary, Bremond and Huber 2018 (FCLIB).
 #pragma once
 
 #include <string>
 
+#include "cd/discrete/global_problem.hpp"
 #include "cd/discrete/problem.hpp"
 
 namespace galet::cd {
@@ -33,5 +35,18 @@ FclibContent read_fclib(const std::string& path);
 /// Writes a local problem, W by compressed columns, and u and r as its solution unless they are empty. Reading it
 /// gives the same bits.
 void write_fclib(const std::string& path, const FclibContent& content);
+
+/// A problem in global form and, where the file has one, its solution (else empty).
+struct FclibGlobalContent {
+  GlobalProblem problem;
+  std::vector<double> v, u, r;
+};
+
+/// As it stands in the file, not reduced. Throws InputError as read_fclib does, and for files in local form.
+FclibGlobalContent read_fclib_global(const std::string& path);
+
+/// Writes a global problem, M and H by compressed columns, in the group for its block. Reading it gives the same bits.
+/// Throws std::invalid_argument where sizes don't agree.
+void write_fclib(const std::string& path, const FclibGlobalContent& content);
 
 }  // namespace galet::cd

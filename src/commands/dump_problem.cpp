@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "cd/discrete/fclib.hpp"
-#include "cd/discrete/step_problem.hpp"
 #include "common/core/error.hpp"
 
 namespace galet::cli {
@@ -30,15 +29,26 @@ int dump_problem(Simulation<D>& simulation, const DumpRequest& request, const Ru
       return 1;
     }
   }
-  cd::StepProblem step = dynamic_cast<cd::ProblemSource&>(engine).step_with_problem();
-  step.problem.title = request.title;
-  step.problem.description = fmt::format(
-      "contact problem of step {} (time {:.9g}) of galet's engine cd, step length {:.9g}; q: velocities, r: impulses, "
+  const bool global = request.form == cd::ProblemForm::global;
+  cd::StepProblem step = dynamic_cast<cd::ProblemSource&>(engine).step_with_problem(request.form);
+  std::string& title = global ? step.global.title : step.problem.title;
+  std::string& description = global ? step.global.description : step.problem.description;
+  title = request.title;
+  description = fmt::format(
+      "contact problem of step {} (time {:.9g}) of galet's engine cd, step length {:.9g}; {}, r: impulses, "
       "in the units of the scene; solution: the engine's impulses, right to its tolerance {:g}",
-      request.step, engine.time(), engine.dt(), simulation.scene().cd.tolerance);
-  cd::write_fclib(request.file, {step.problem, step.u, step.r});
-  fmt::print("{}: {} contacts of {} numbers, {} entries of W\n", request.file, step.problem.contacts(),
-             step.problem.block, step.problem.value.size());
+      request.step, engine.time(), engine.dt(),
+      global ? "v: velocities of bodies, cell modes and elastic contacts" : "q: velocities",
+      simulation.scene().cd.tolerance);
+  if (global) {
+    cd::write_fclib(request.file, cd::FclibGlobalContent{step.global, step.v, step.u, step.r});
+    fmt::print("{}: {} contacts of {} numbers, {} freedoms, {} entries of H\n", request.file, step.global.mu.size(),
+               step.global.block, step.global.mass.rows(), step.global.jacobian.nonZeros());
+  } else {
+    cd::write_fclib(request.file, cd::FclibContent{step.problem, step.u, step.r});
+    fmt::print("{}: {} contacts of {} numbers, {} entries of W\n", request.file, step.problem.contacts(),
+               step.problem.block, step.problem.value.size());
+  }
   return 0;
 }
 

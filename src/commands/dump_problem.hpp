@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cd/discrete/step_problem.hpp"
 #include "src/simulation.hpp"
 
 namespace galet::cli {
@@ -11,6 +12,7 @@ struct DumpRequest {
   long step = 0;      ///< 1: the first of the run proper
   std::string file;   ///< to be written
   std::string title;  ///< of the scene
+  cd::ProblemForm form = cd::ProblemForm::local;
 };
 
 /// Takes the run to that step (through the stage before, if the scene has one) and writes the step's problem, with the

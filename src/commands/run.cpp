@@ -41,9 +41,13 @@ struct RunArguments {
   double checkpoint_every = 300;
   std::optional<long> dump_step;  ///< write the contact problem of this step, and stop
   std::string dump_file;
+  cd::ProblemForm dump_form = cd::ProblemForm::local;
   bool json = false;
   LogLevel log = LogLevel::results;
 };
+
+const std::map<std::string, cd::ProblemForm> problem_forms = {{"local", cd::ProblemForm::local},
+                                                              {"global", cd::ProblemForm::global}};
 
 /// What is to be run, and what it is called.
 struct Job {
@@ -187,7 +191,7 @@ int run_job(const RunArguments& arguments, const Job& job) {
     catch_interrupts();
     RunControl control;
     control.stop = interrupted;
-    return dump_problem(simulation, {*arguments.dump_step, file, job.title}, control);
+    return dump_problem(simulation, {*arguments.dump_step, file, job.title, arguments.dump_form}, control);
   }
   const bool results = !arguments.json && arguments.log != LogLevel::warnings;
   if (results)
@@ -252,6 +256,11 @@ void add_run(CLI::App& app, Action& action) {
   command
       ->add_option("--dump-file", arguments->dump_file, "that file (default: problem_STEP.hdf5 in the results' folder)")
       ->needs(dump);
+  command
+      ->add_option("--dump-form", arguments->dump_form,
+                   "form of that problem: local (W and q, the default) or global (M, H, f and w)")
+      ->needs(dump)
+      ->transform(CLI::CheckedTransformer(problem_forms));
   command->add_flag("--json", arguments->json, "print one JSON object")->excludes(dump);
   command
       ->add_option("--log", arguments->log,

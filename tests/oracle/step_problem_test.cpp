@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cd/discrete/discrete_form.hpp"
+#include "cd/discrete/solve.hpp"
 #include "cd/solvers/nsgs.hpp"
 #include "common/core/random.hpp"
 #include "tests/determinism/sheared.hpp"
@@ -316,6 +317,36 @@ void expect_solution(const StepProblem& step, double error) {
   EXPECT_LT((u - vector(step.u)).norm(), 1e-13 * (u.norm() + vector(step.problem.q).norm())) << "u = W r + q";
 }
 
+/// The global form says the same as the local one: its reduction, its equations of motion, and its answer.
+void expect_global(const StepProblem& local, const StepProblem& global) {
+  const DiscreteProblem back = reduced(global.global);
+  const Eigen::MatrixXd w = dense(local.problem);
+  ASSERT_EQ(back.block, local.problem.block);
+  ASSERT_EQ(back.q.size(), local.problem.q.size());
+  EXPECT_EQ(back.mu, local.problem.mu);
+  EXPECT_EQ(back.mu_r, local.problem.mu_r);
+  const auto vector = [](const std::vector<double>& all) {
+    return Eigen::VectorXd(Eigen::VectorXd::Map(all.data(), static_cast<Eigen::Index>(all.size())));
+  };
+  // Sums of a few products, of mobilities that eigenvalues are found of: rounding.
+  EXPECT_LT((dense(back) - w).norm(), 1e-13 * w.norm());
+  EXPECT_LT((vector(back.q) - vector(local.problem.q)).norm(), 1e-13 * (1 + vector(local.problem.q).norm()));
+  EXPECT_EQ(global.r, local.r);
+  EXPECT_LT((vector(global.u) - vector(local.u)).norm(), 1e-12 * (vector(local.u).norm() + w.norm()));
+  const GlobalProblem& problem = global.global;
+  const Eigen::VectorXd miss =
+      problem.mass * vector(global.v) - problem.jacobian * vector(global.r) - vector(problem.f);
+  EXPECT_LT(miss.norm(), 1e-13 * (problem.mass.norm() + 1) * (vector(global.v).norm() + 1));
+  // An answer to one is an answer to the other.
+  DiscreteOptions options;
+  options.error = 1e-9;
+  const DiscreteSolution solution = solve(back, options);
+  ASSERT_TRUE(solution.converged) << solution.error;
+  StepProblem swapped = local;
+  swapped.r = solution.r, swapped.u = solution.u;
+  EXPECT_LT(error_of(swapped), 1.01e-9 + 1e-12);
+}
+
 template <Layout Y>
 void check_layout() {
   for (const bool hub : {false, true})
@@ -331,6 +362,7 @@ void check_layout() {
       expect_operator(problem, free, step.problem);
       // The residual of cd (relative to impulses) at 1e-12 and errS measure the same map in other scales.
       expect_solution(step, 1e-9);
+      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global));
     }
 }
 
@@ -351,6 +383,7 @@ void check_turning() {
       EXPECT_GT(turning, 0.1) << "some of its contacts bear impulses";
       expect_operator(problem, free, step.problem);
       expect_solution(step, 1e-9);
+      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global));
     }
 }
 
@@ -388,6 +421,13 @@ TEST(StepProblem, WhatHasNoFormIsRefused) {
     many.i[k] = 0, many.j[k] = 1, many.normal[k] = Vec<2>(1, 0), many.distance[k] = many.wn[k] = 1;
   const Iterate<Plain> still = random_motion(many, 1);
   EXPECT_THROW(DiscreteForm<Plain>::of(many, still, still.reaction), InputError);
+  // The global form has no such bound.
+  many.offset.assign(many.size(), 0.0);
+  Iterate<Plain> none = still;
+  none.reaction.assign(many.size(), Reaction<Plain>::Zero());
+  const StepProblem global = DiscreteForm<Plain>::of(many, none, none.reaction, ProblemForm::global);
+  EXPECT_EQ(global.global.jacobian.cols(), 2 * (DiscreteForm<Plain>::most_hub_contacts + 1));
+  EXPECT_EQ(global.global.mass.rows(), 5);
 }
 
 // ---- Steps of the engine ----
@@ -408,17 +448,19 @@ void check_step(const test::RichLaw* law) {
     }
     return test::make_engine<D>(EngineKind::cd, scene, sample);
   };
-  const auto engine = make(), other = make();
-  engine->advance(5), other->advance(5);
-  const StepProblem step = dynamic_cast<ProblemSource&>(*engine).step_with_problem();
-  other->advance(1);
-  EXPECT_EQ(test::hash_of<D>(*engine), test::hash_of<D>(*other));
+  const auto engine = make(), other = make(), silent = make();
+  engine->advance(5), other->advance(5), silent->advance(6);
+  const StepProblem step = dynamic_cast<ProblemSource&>(*engine).step_with_problem(ProblemForm::local);
+  const StepProblem global = dynamic_cast<ProblemSource&>(*other).step_with_problem(ProblemForm::global);
+  EXPECT_EQ(test::hash_of<D>(*engine), test::hash_of<D>(*silent));
+  EXPECT_EQ(test::hash_of<D>(*other), test::hash_of<D>(*silent));
   EXPECT_GT(step.problem.contacts(), 20);
   EXPECT_GT(*std::max_element(step.r.begin(), step.r.end()), 0);
   ASSERT_EQ(engine->solver_summary().missed, 0);
   // The engine's residual counts against the impulses, errS against the largest of impulses and motions: not above
   // it but for the scale of the blocks (a factor of a few).
   expect_solution(step, 1e-7);
+  expect_global(step, global);
 }
 
 TEST(StepProblem, OfEnginesIsSolvedByTheirImpulses) {

@@ -215,6 +215,85 @@ TEST(Fclib, GravityPressesABallOnTheFloor) {
   EXPECT_EQ(through_file(file).q, (std::vector<double>{-0.125, 0, 0}));
 }
 
+Eigen::SparseMatrix<double> random_sparse(int rows, int columns, RandomStream& stream) {
+  Eigen::SparseMatrix<double> matrix(rows, columns);
+  for (int a = 0; a < rows; ++a)
+    for (int b = 0; b < columns; ++b)
+      if (a == b || stream.uniform(0, 1) < 0.3)
+        matrix.insert(a, b) = a == b ? 3 + stream.uniform(0, 1) : stream.normal();
+  return matrix;  // not compressed: writing it must not depend on that
+}
+
+FclibGlobalContent random_global(int block, int contacts, int freedoms) {
+  RandomStream stream(20 + static_cast<std::uint64_t>(block), 1);
+  FclibGlobalContent content;
+  GlobalProblem& problem = content.problem;
+  problem.block = block;
+  problem.title = "random", problem.description = "M is not symmetric";
+  problem.mass = random_sparse(freedoms, freedoms, stream);
+  problem.jacobian = random_sparse(freedoms, block * contacts, stream);
+  for (int a = 0; a < freedoms; ++a) problem.f.push_back(stream.normal()), content.v.push_back(stream.normal());
+  for (int a = 0; a < block * contacts; ++a) {
+    problem.w.push_back(stream.normal());
+    content.u.push_back(stream.normal()), content.r.push_back(stream.normal());
+  }
+  for (int c = 0; c < contacts; ++c) {
+    problem.mu.push_back(stream.uniform(0, 1));
+    if (block == 5) problem.mu_r.push_back(stream.uniform(0, 1));
+  }
+  return content;
+}
+
+TEST(Fclib, GlobalProblemsReturnTheSameBits) {
+  const TemporaryFolder folder;
+  for (const int block : {2, 3, 5}) {
+    const FclibGlobalContent content = random_global(block, 4, 9);
+    write_fclib(folder.file("a.hdf5"), content);
+    // The group that upstream has for rolling.
+    const Archive archive = read_hdf5(folder.file("a.hdf5"), {"fclib_global", "fclib_global_rolling"});
+    EXPECT_EQ(archive.reals.contains("fclib_global_rolling/vectors/mu_r"), block == 5);
+    EXPECT_EQ(archive.reals.contains("fclib_global/vectors/f"), block != 5);
+    const FclibGlobalContent back = read_fclib_global(folder.file("a.hdf5"));
+    EXPECT_EQ(back.problem.block, block);
+    EXPECT_TRUE(Eigen::MatrixXd(back.problem.mass) == Eigen::MatrixXd(content.problem.mass));
+    EXPECT_TRUE(Eigen::MatrixXd(back.problem.jacobian) == Eigen::MatrixXd(content.problem.jacobian));
+    EXPECT_EQ(back.problem.jacobian.nonZeros(), content.problem.jacobian.nonZeros());
+    EXPECT_TRUE(same_bits(back.problem.f, content.problem.f));
+    EXPECT_TRUE(same_bits(back.problem.w, content.problem.w));
+    EXPECT_TRUE(same_bits(back.problem.mu, content.problem.mu));
+    EXPECT_TRUE(same_bits(back.problem.mu_r, content.problem.mu_r));
+    EXPECT_TRUE(same_bits(back.v, content.v));
+    EXPECT_TRUE(same_bits(back.u, content.u));
+    EXPECT_TRUE(same_bits(back.r, content.r));
+    EXPECT_EQ(back.problem.title, content.problem.title);
+    EXPECT_EQ(back.problem.description, content.problem.description);
+    write_fclib(folder.file("b.hdf5"), back);
+    EXPECT_EQ(file_bytes(folder.file("a.hdf5")), file_bytes(folder.file("b.hdf5")));
+    // Reduced by reading it as a local problem.
+    const DiscreteProblem local = read_fclib(folder.file("a.hdf5")).problem, own = reduced(content.problem);
+    EXPECT_EQ(local.column, own.column);
+    EXPECT_TRUE(same_bits(local.value, own.value));
+    EXPECT_TRUE(same_bits(local.q, own.q));
+  }
+}
+
+TEST(Fclib, GlobalProblemsOfOtherSizesAreRefused) {
+  const TemporaryFolder folder;
+  const FclibGlobalContent sound = random_global(3, 2, 5);
+  const auto refused = [&](void (*harm)(FclibGlobalContent&)) {
+    FclibGlobalContent content = sound;
+    harm(content);
+    EXPECT_THROW(write_fclib(folder.file("a.hdf5"), content), std::invalid_argument);
+  };
+  refused([](FclibGlobalContent& content) { content.problem.f.pop_back(); });
+  refused([](FclibGlobalContent& content) { content.problem.w.push_back(0); });
+  refused([](FclibGlobalContent& content) { content.problem.mu_r = {1, 1}; });
+  refused([](FclibGlobalContent& content) { content.v.pop_back(); });
+  refused([](FclibGlobalContent& content) { content.u.pop_back(); });
+  write_hdf5(folder.file("local.hdf5"), local_file());
+  EXPECT_THROW(read_fclib_global(folder.file("local.hdf5")), InputError);
+}
+
 // ---- Refusals ----
 
 std::string refusal(const std::string& path) {
