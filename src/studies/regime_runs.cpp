@@ -25,7 +25,7 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
   ShearScene scene;
   scene.title = title;
   scene.engine = engine;
-  scene.grains = quick ? (regime == Regime::critical ? 200 : 400) : 2000;
+  scene.grains = quick ? 200 : 2000;
   scene.friction = state.friction;
   scene.restitution = state.restitution;
   scene.stiffness_level = state.stiffness_level;
@@ -132,8 +132,7 @@ std::vector<Quantity> quantities_of(Regime regime) {
 
 int samples_of(Regime regime, StudySize size) {
   if (is_flow(regime)) return 1;
-  const bool quick = size == StudySize::quick;
-  return regime == Regime::assembly ? (quick ? 4 : 5) : (quick ? 3 : 5);
+  return size == StudySize::quick ? 3 : 5;
 }
 
 bool has_cell(Regime regime, EngineKind engine, int column) {
