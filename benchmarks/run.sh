@@ -7,6 +7,7 @@
 #   presets          every ready scene with both engines side by side: stresses, Phi, z, mu*, energy budget, time (an hour or more)
 #   layouts          what each layout costs (Google Benchmark)
 #   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains (about five minutes, 3 GB; --quick: to 64000, half a minute)
+#   engine_scaling   cost per grain and step and memory of both engines, 1e3 to 1e6 grains (cd: to 1e5), size ratios 1, 10 and 50
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   cd_runs          whole runs of cd: time per step and contact, share of the solver, steps that missed
@@ -75,6 +76,9 @@ for name in "${names[@]}"; do
       rm -r "$parts" ;;
     layouts) "$bin/benchmarks/layouts" --benchmark_min_time=0.7 --benchmark_format=csv 2>/dev/null | tee "$out/layouts.csv" ;;
     md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
+    engine_scaling)
+      "$bin/benchmarks/engine_scaling" "$out"
+      rm -f "$out"/*.png ;;
     md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;
