@@ -13,8 +13,10 @@ namespace {
 
 bool is_flow(Regime regime) { return regime >= Regime::critical; }
 
-std::string material_lines(const State& state) {
+/// `elastic`: contacts of cd have a stiffness, which needs repulsive forces bounded as a whole.
+std::string material_lines(const State& state, bool elastic) {
   std::string text;
+  if (elastic) text += "viscous_convention = \"total\"\n";
   if (state.rolling > 0) text += fmt::format("rolling_friction = {}\n", state.rolling);
   if (state.cohesion > 0) text += fmt::format("cohesion_number = {}\n", state.cohesion);
   return text;
@@ -33,7 +35,7 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
   scene.strain = regime == Regime::critical ? (quick ? 5 : 20) : (quick ? 25 : 60);
   if (regime == Regime::collisional) scene.strain *= 2;
   scene.settling = 2;
-  scene.material = material_lines(state);
+  scene.material = material_lines(state, elastic);
   scene.compliance = elastic;
   return shear_scene(scene);
 }
@@ -69,7 +71,7 @@ pressure = 1.0
 samples = 100
 )",
                                  title, seed, engine_name(engine), quick ? 300 : 2000, state.friction,
-                                 state.restitution, state.stiffness_level, material_lines(state));
+                                 state.restitution, state.stiffness_level, material_lines(state, elastic));
   if (engine == EngineKind::cd)
     text += fmt::format("\n[cd]\ntolerance = 1e-4\n{}", elastic ? "compliance = true\n" : "");
   text += fmt::format(
@@ -90,7 +92,7 @@ std::string solid_scene(Regime regime, EngineKind engine, const State& state, in
   scene.restitution = state.restitution;
   scene.stiffness_level = state.stiffness_level;
   scene.equilibrium = 1e-6;
-  scene.material = material_lines(state);
+  scene.material = material_lines(state, false);
   return assembly_scene(scene, regime == Regime::type_I ? 'A' : 'C') + triaxial_stage(0.006, state.inertial_number);
 }
 

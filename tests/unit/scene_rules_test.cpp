@@ -315,9 +315,9 @@ velocity = [0, -20]
        sound + R"(cell = {size = [10, 30], periodic = [true, false]}
 body = [{name = "a", shape = "wall", at = 1}, {name = "b", shape = "wall", at = 21, velocity = [1, -40]}, {name = "c", shape = "wall", at = 1}]
 )",
-       {"6:80: body[1].velocity: the wall crosses body[0] at the time 0.5, before the end of the run",
-        "6:138: body[2].at: body[0], a wall too, stands in the same place",
-        "6:107: body[2].velocity: the wall crosses body[1] at the time 0.5, before the end of the run"}},
+       {"6:96: body[1].velocity: the wall crosses body[0] at the time 0.5, before the end of the run",
+        "6:107: body[2].velocity: the wall crosses body[1] at the time 0.5, before the end of the run",
+        "6:141: body[2].at: body[0], a wall too, stands in the same place"}},
       {"plane_incomplete",
        sound + R"([[plane]]
 velocity = [0, 0]
