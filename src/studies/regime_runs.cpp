@@ -27,12 +27,12 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
   ShearScene scene;
   scene.title = title;
   scene.engine = engine;
-  scene.grains = quick ? 200 : 2000;
+  scene.grains = quick ? (regime == Regime::critical ? 150 : 200) : 2000;
   scene.friction = state.friction;
   scene.restitution = state.restitution;
   scene.stiffness_level = state.stiffness_level;
   scene.inertial_number = state.inertial_number;
-  scene.strain = regime == Regime::critical ? (quick ? 5 : 20) : (quick ? 25 : 60);
+  scene.strain = regime == Regime::critical ? (quick ? 6 : 20) : (quick ? 16 : 60);
   if (regime == Regime::collisional) scene.strain *= 2;
   scene.settling = 2;
   scene.material = material_lines(state, elastic);
@@ -70,7 +70,7 @@ pressure = 1.0
 [run]
 samples = 100
 )",
-                                 title, seed, engine_name(engine), quick ? 300 : 2000, state.friction,
+                                 title, seed, engine_name(engine), quick ? 200 : 2000, state.friction,
                                  state.restitution, state.stiffness_level, material_lines(state, elastic));
   if (engine == EngineKind::cd)
     text += fmt::format("\n[cd]\ntolerance = 1e-4\n{}", elastic ? "compliance = true\n" : "");
@@ -86,7 +86,7 @@ std::string solid_scene(Regime regime, EngineKind engine, const State& state, in
   SolidScene scene;
   scene.title = title;
   scene.engine = engine;
-  scene.grains = quick ? 200 : 4000;
+  scene.grains = quick ? 120 : 4000;
   scene.seed = seed;
   scene.friction = state.friction;
   scene.restitution = state.restitution;
@@ -110,13 +110,13 @@ RegimeRow regime_row(Regime regime, StudySize size) {
     case Regime::critical:
       return {"critical state",
               "NNNYYY",
-              {quick ? 4e-3 : 1e-3, quick ? 2e3 : 1e4, 0.1, 0.4, 0, 0},
-              {quick ? 2e-3 : 5e-4, quick ? 1e4 : 1e5, 0.9, 0.1, 0.05, 2}};
+              {quick ? 5e-3 : 1e-3, quick ? 2e3 : 1e4, 0.1, 0.4, 0, 0},
+              {quick ? 1e-2 : 5e-4, quick ? 1e4 : 1e5, 0.9, 0.1, 0.05, 2}};
     case Regime::dense:
       return {"dense flow",
               "YNNYYY",
               {0.05, quick ? 2e3 : 1e4, 0.1, 0.4, 0, 0},
-              {0.01, quick ? 1e4 : 1e5, 0.9, 0.1, 0.05, 2}};
+              {quick ? 0.02 : 0.01, quick ? 1e4 : 1e5, 0.9, 0.1, 0.05, 2}};
     case Regime::collisional:
       return {"collisional",
               "YNYYYY",

@@ -171,7 +171,8 @@ inline constexpr Study regimes_study{
     "regimes",
     "Which parameters matter in which regime",
     "Roux and Chevoir 2010, last table",
-    "flows and assembly: disks +-20 %; solids: equal spheres (Hertz, Mindlin), 200 in quick size; each parameter is "
+    "flows and assembly: disks +-20 %; solids: equal spheres (Hertz, Mindlin); quick size: 120 to 200 grains; each "
+    "parameter is "
     "changed "
     "alone from a "
     "reference; kappa of cd: from rigid to elastic contacts; type I has no rows of cd, whose contacts don't deform",
