@@ -55,10 +55,16 @@ double stress_of(const Measurement& row, const std::string& component) {
   return row[Observable::pressure];
 }
 
-/// The rate of a component between the first and the last row.
+/// The rate of a component between the first and the last row; "isotropic": of each diagonal component.
 double rate_of(const std::vector<Measurement>& rows, const std::string& component) {
   constexpr std::array<std::pair<const char*, Observable>, 4> names = {
       {{"xx", Observable::eps_xx}, {"yy", Observable::eps_yy}, {"zz", Observable::eps_zz}, {"xy", Observable::strain}}};
+  if (component == "isotropic") {
+    double mean = 0, count = 0;
+    for (int k = 0; k < 3; ++k)
+      if (const double one = rate_of(rows, names[k].first); std::isfinite(one)) mean += one, ++count;
+    return mean / count;
+  }
   for (const auto& [name, observable] : names) {
     if (component != name) continue;
     const double change = rows.back()[observable] - rows.front()[observable];

@@ -173,6 +173,12 @@ Figure radius_figure(const std::vector<StudyRow>& rows) {
   return figure;
 }
 
+/// The creeping parts of wide annuli are dear to cd, whose contacts there want many sweeps.
+std::vector<double> radii_of(EngineKind engine, bool quick) {
+  if (!quick) return {12, 25, 50, 100};
+  return engine == EngineKind::md ? std::vector<double>{12, 24, 48} : std::vector<double>{12, 24};
+}
+
 }  // namespace
 
 std::vector<StudyRun> plan(StudySize size) {
@@ -192,7 +198,7 @@ std::vector<StudyRun> plan(StudySize size) {
       runs.push_back(
           {fmt::format("{}_I_{:g}", engine_name(engine), state), engine, {{"I", state}}, shear_scene(scene)});
     }
-    for (const double radius : quick ? std::vector<double>{12, 24, 48} : std::vector<double>{12, 25, 50, 100})
+    for (const double radius : radii_of(engine, quick))
       for (const int seed : quick ? std::vector{1, 2} : std::vector{1, 2, 3}) {
         AnnulusScene scene;
         scene.engine = engine;
@@ -213,7 +219,8 @@ std::vector<StudyRun> plan(StudySize size) {
 StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : engines) {
-    for (const double radius : values_of(rows, "R_i")) report_radius(report, rows, engine, radius);
+    for (const double radius : values_of(rows, "R_i"))
+      if (!rows_with(rows, engine, {{"R_i", radius}}).empty()) report_radius(report, rows, engine, radius);
     report_limit(report, rows, engine);
     const std::string of = "_" + engine_name(engine);
     report.figures.push_back({"mu_star" + of, law_figure(rows, engine, Observable::mu_star, &LocalState::mu_star)});
