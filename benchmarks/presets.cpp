@@ -74,10 +74,44 @@ double rate_of(const std::vector<Measurement>& rows, const std::string& componen
   return std::nan("");
 }
 
+/// A bed at rest: the vertical stress of each layer over the weight of the grains above its middle (mean mass 1).
+std::string held_by_the_floor(const Scene& scene, const std::vector<ProfileRow>& rows) {
+  double above = 0, mean = 0, square = 0, count = 0;
+  for (std::size_t k = rows.size(); k-- > 1;) {  // the lowest layer has the floor's grains
+    const double weight = (above + 0.5 * rows[k].grains) * -scene.loading.gravity.back() / scene.cell.size[0];
+    above += rows[k].grains;
+    if (rows[k].solid_fraction < 0.75) continue;
+    const double ratio = rows[k].stress(1, 1) / weight;
+    mean += ratio, square += ratio * ratio, ++count;
+  }
+  mean /= count;
+  return fmt::format("sigma_yy over the weight above 1: {:.4g}+-{:.1g}", mean,
+                     std::sqrt(std::max(0.0, square / count - mean * mean)));
+}
+
+/// Between rings: the radial stress, and the moment sigma_r,theta r^2 of single rings over its mean, of the rings that
+/// lie between the boundaries' grains.
+std::string held_between_rings(const Scene& scene, const std::vector<ProfileRow>& rows) {
+  const auto mean_and_scatter = [&](auto of) {
+    double mean = 0, square = 0, count = 0;
+    for (std::size_t k = 1; k + 1 < rows.size(); ++k) mean += of(rows[k]), square += std::pow(of(rows[k]), 2), ++count;
+    mean /= count;
+    return std::pair(mean, std::sqrt(std::max(0.0, square / count - mean * mean)));
+  };
+  const auto radial = mean_and_scatter([](const ProfileRow& row) { return row.stress(0, 0); });
+  const auto moment =
+      mean_and_scatter([](const ProfileRow& row) { return row.stress(1, 0) * row.position * row.position; });
+  return fmt::format("sigma_rr {:.4g}: {:.4g}+-{:.1g}; sigma_r.theta r^2 over its mean 1: 1+-{:.1g}",
+                     scene.loading.pressure.value_or(0), radial.first, radial.second,
+                     std::abs(moment.second / moment.first));
+}
+
 /// Between walls, or down a slope, where no cell is driven: what the middle half of the profile shows.
 std::string held_across(const Scene& scene, const RunResult& result) {
   const std::vector<ProfileRow>& rows = result.measures.profile;
-  if (rows.empty() || result.measures.profile_by_rings) return "";
+  if (rows.empty()) return "";
+  if (result.measures.profile_by_rings) return held_between_rings(scene, rows);
+  if (!scene.loading.gravity.empty() && !scene.loading.inclination) return held_by_the_floor(scene, rows);
   std::vector<double> normal, ratio;
   for (const ProfileRow& row : rows) {
     if (row.solid_fraction < 0.5 * rows[rows.size() / 4].solid_fraction) continue;  // above the surface
@@ -203,6 +237,7 @@ int main(int argc, char** argv) {
       }
       overrides.push_back({word.substr(0, equals), word.substr(equals + 1)});
       changes += (changes.empty() ? "" : "; ") + word;
+      std::replace(changes.begin(), changes.end(), ',', ' ');  // of the table's cells
     }
     if (names.empty())
       for (const auto& entry : std::filesystem::directory_iterator(argv[1]))
