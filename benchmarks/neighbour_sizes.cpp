@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/unlike_sample.hpp"
 #include "common/core/clock.hpp"
-#include "common/core/random.hpp"
 #include "common/neighbour/verlet_list.hpp"
 #include "common/scene/sample.hpp"
 
@@ -18,30 +18,7 @@ using namespace galet;
 
 namespace {
 
-/// `side`^3 sites `spacing` apart; `large`^3 grains of diameter `ratio`, regularly spaced.
-Sample<3> sample_of(int side, double spacing, double ratio, int large) {
-  Sample<3> sample;
-  const double edge = side * spacing;
-  sample.cell.box = edge * Mat<3>::Identity();
-  sample.cell.periodic.fill(true);
-  std::vector<Vec<3>> centres;
-  for (int k = 0; k < large * large * large; ++k)
-    centres.push_back(edge / large * Vec<3>(k % large + 0.5, k / large % large + 0.5, k / large / large + 0.5));
-  sample.position = centres;
-  sample.radius.assign(centres.size(), ratio / 2);
-  const double shake = 0.4 * std::min(0.5, spacing - 1);
-  for (int k = 0; k < side * side * side; ++k) {
-    RandomStream random(1, static_cast<std::uint64_t>(k));
-    Vec<3> x = spacing * Vec<3>(k % side + 0.5, k / side % side + 0.5, k / side / side + 0.5);
-    for (int a = 0; a < 3; ++a) x[a] += random.uniform(-shake, shake);
-    const bool free = std::none_of(centres.begin(), centres.end(),
-                                   [&](const Vec<3>& centre) { return (x - centre).norm() < (ratio + 1) / 2; });
-    if (!free) continue;
-    sample.position.push_back(x);
-    sample.radius.push_back(0.5);
-  }
-  return sample;
-}
+using bench::unlike_sample;
 
 void measure(const char* name, Sample<3> sample, double ratio) {
   VerletList<3> list;
@@ -63,10 +40,10 @@ void measure(const char* name, Sample<3> sample, double ratio) {
 
 int main() {
   fmt::print("sample,size_ratio,grains,solid_fraction,pairs_per_grain,ns_per_grain\n");
-  measure("equal", sample_of(40, 1.05, 1, 0), 1);
-  measure("one_in_ten", sample_of(42, 1.05, 10, 3), 10);
-  measure("one_in_fifty", sample_of(60, 1.05, 50, 1), 50);
-  measure("dilute", sample_of(40, 3, 1, 0), 1);
-  measure("very_dilute", sample_of(40, 20, 1, 0), 1);
-  measure("dilute_one_in_ten", sample_of(40, 3, 10, 3), 10);
+  measure("equal", unlike_sample(40, 1.05, 1, 0), 1);
+  measure("one_in_ten", unlike_sample(42, 1.05, 10, 3), 10);
+  measure("one_in_fifty", unlike_sample(60, 1.05, 50, 1), 50);
+  measure("dilute", unlike_sample(40, 3, 1, 0), 1);
+  measure("very_dilute", unlike_sample(40, 20, 1, 0), 1);
+  measure("dilute_one_in_ten", unlike_sample(40, 3, 10, 3), 10);
 }

@@ -1,6 +1,7 @@
 // Every ready scene with both engines, side by side: a row per scene (or stage) and engine.
-//   presets FOLDER_OF_SCENES [NAME...]      table as CSV on standard output
+//   presets FOLDER_OF_SCENES [NAME...] [FIELD=VALUE...]      table as CSV on standard output
 //
+// FIELD=VALUE changes the scenes named, as `galet run --set` does; the column `changes` says so.
 // sigma, mu*, Phi, z: of the last stage means as the run's summary has them, of stages before their last sample.
 // `held`: each stress and rate that the loading asks for at the end of the stage, with what was there, as "sigma_yy 1:
 // 0.999+-0.02": mean and standard deviation of the rows of the last third of the stage (of a stress that changes, the
@@ -54,10 +55,16 @@ double stress_of(const Measurement& row, const std::string& component) {
   return row[Observable::pressure];
 }
 
-/// The rate of a component between the first and the last row.
+/// The rate of a component between the first and the last row; "isotropic": of each diagonal component.
 double rate_of(const std::vector<Measurement>& rows, const std::string& component) {
   constexpr std::array<std::pair<const char*, Observable>, 4> names = {
       {{"xx", Observable::eps_xx}, {"yy", Observable::eps_yy}, {"zz", Observable::eps_zz}, {"xy", Observable::strain}}};
+  if (component == "isotropic") {
+    double mean = 0, count = 0;
+    for (int k = 0; k < 3; ++k)
+      if (const double one = rate_of(rows, names[k].first); std::isfinite(one)) mean += one, ++count;
+    return mean / count;
+  }
   for (const auto& [name, observable] : names) {
     if (component != name) continue;
     const double change = rows.back()[observable] - rows.front()[observable];
@@ -67,10 +74,44 @@ double rate_of(const std::vector<Measurement>& rows, const std::string& componen
   return std::nan("");
 }
 
+/// A bed at rest: the vertical stress of each layer over the weight of the grains above its middle (mean mass 1).
+std::string held_by_the_floor(const Scene& scene, const std::vector<ProfileRow>& rows) {
+  double above = 0, mean = 0, square = 0, count = 0;
+  for (std::size_t k = rows.size(); k-- > 1;) {  // the lowest layer has the floor's grains
+    const double weight = (above + 0.5 * rows[k].grains) * -scene.loading.gravity.back() / scene.cell.size[0];
+    above += rows[k].grains;
+    if (rows[k].solid_fraction < 0.75) continue;
+    const double ratio = rows[k].stress(1, 1) / weight;
+    mean += ratio, square += ratio * ratio, ++count;
+  }
+  mean /= count;
+  return fmt::format("sigma_yy over the weight above 1: {:.4g}+-{:.1g}", mean,
+                     std::sqrt(std::max(0.0, square / count - mean * mean)));
+}
+
+/// Between rings: the radial stress, and the moment sigma_r,theta r^2 of single rings over its mean, of the rings that
+/// lie between the boundaries' grains.
+std::string held_between_rings(const Scene& scene, const std::vector<ProfileRow>& rows) {
+  const auto mean_and_scatter = [&](auto of) {
+    double mean = 0, square = 0, count = 0;
+    for (std::size_t k = 1; k + 1 < rows.size(); ++k) mean += of(rows[k]), square += std::pow(of(rows[k]), 2), ++count;
+    mean /= count;
+    return std::pair(mean, std::sqrt(std::max(0.0, square / count - mean * mean)));
+  };
+  const auto radial = mean_and_scatter([](const ProfileRow& row) { return row.stress(0, 0); });
+  const auto moment =
+      mean_and_scatter([](const ProfileRow& row) { return row.stress(1, 0) * row.position * row.position; });
+  return fmt::format("sigma_rr {:.4g}: {:.4g}+-{:.1g}; sigma_r.theta r^2 over its mean 1: 1+-{:.1g}",
+                     scene.loading.pressure.value_or(0), radial.first, radial.second,
+                     std::abs(moment.second / moment.first));
+}
+
 /// Between walls, or down a slope, where no cell is driven: what the middle half of the profile shows.
 std::string held_across(const Scene& scene, const RunResult& result) {
   const std::vector<ProfileRow>& rows = result.measures.profile;
-  if (rows.empty() || result.measures.profile_by_rings) return "";
+  if (rows.empty()) return "";
+  if (result.measures.profile_by_rings) return held_between_rings(scene, rows);
+  if (!scene.loading.gravity.empty() && !scene.loading.inclination) return held_by_the_floor(scene, rows);
   std::vector<double> normal, ratio;
   for (const ProfileRow& row : rows) {
     if (row.solid_fraction < 0.5 * rows[rows.size() / 4].solid_fraction) continue;  // above the surface
@@ -129,32 +170,34 @@ struct Row {
   std::string held;
 };
 
-void print_row(const std::string& name, const RunResult& result, const Row& row, bool last) {
+void print_row(const std::string& name, const RunResult& result, const Row& row, bool last,
+               const std::string& changes) {
   const Measurement& m = row.m;
   fmt::print("{},{},{},{},{:.5g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f},{}", name,
              result.engine == EngineKind::md ? "md" : "cd", row.stage, to_string(row.ending), row.time,
              m[Observable::sigma_xx], m[Observable::sigma_yy], m[Observable::sigma_xy], m[Observable::mu_star],
              m[Observable::solid_fraction], m[Observable::z], m[Observable::z_star], row.held);
   if (!last) {
-    fmt::print(",,,,\n");
+    fmt::print(",,,,,{}\n", changes);
     return;
   }
   const bool rigid = result.engine == EngineKind::cd;
-  fmt::print(",{},{},{},{:.0f}\n", budget_residual(result),
+  fmt::print(",{},{},{},{:.0f},{}\n", budget_residual(result),
              rigid ? fmt::format("{} of {}", result.solver.missed, result.solver.steps) : "",
-             rigid ? fmt::format("{:.1e}", result.solver.penetration) : "", result.cpu_seconds);
+             rigid ? fmt::format("{:.1e}", result.solver.penetration) : "", result.cpu_seconds, changes);
   std::fflush(stdout);
 }
 
 template <int D>
-void run(const std::string& name, Scene scene) {
+void run(const std::string& name, Scene scene, const std::string& changes) {
   scene.md.energy_budget = true;
   for (const EngineKind kind : {EngineKind::md, EngineKind::cd}) {
     scene.engine = kind;
     Simulation<D> simulation(scene, kind);
     const RunResult result = simulation.run();
     if (result.ending == Ending::failed) {
-      fmt::print("{},{},,failed: {},,,,,,,,,,,,,\n", name, kind == EngineKind::md ? "md" : "cd", result.failure);
+      fmt::print("{},{},,failed: {},,,,,,,,,,,,,,{}\n", name, kind == EngineKind::md ? "md" : "cd", result.failure,
+                 changes);
       continue;
     }
     const std::vector<Scene> stages = stage_scenes(scene);
@@ -172,7 +215,7 @@ void run(const std::string& name, Scene scene) {
       from = rows[k].time;
       if (of_stage.size() > 1) rows[k].held = held(stages[k], derived[k], of_stage);
       if (k + 1 == rows.size() && rows[k].held.empty()) rows[k].held = held_across(scene, result);
-      print_row(name, result, rows[k], k + 1 == rows.size());
+      print_row(name, result, rows[k], k + 1 == rows.size(), changes);
     }
   }
 }
@@ -181,18 +224,31 @@ void run(const std::string& name, Scene scene) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc < 2) throw InputError("presets FOLDER_OF_SCENES [NAME...]");
-    std::vector<std::string> names(argv + 2, argv + argc);
+    if (argc < 2) throw InputError("presets FOLDER_OF_SCENES [NAME...] [FIELD=VALUE...]");
+    std::vector<std::string> names;
+    std::vector<Override> overrides;
+    std::string changes;
+    for (int k = 2; k < argc; ++k) {
+      const std::string word = argv[k];
+      const std::size_t equals = word.find('=');
+      if (equals == std::string::npos) {
+        names.push_back(word);
+        continue;
+      }
+      overrides.push_back({word.substr(0, equals), word.substr(equals + 1)});
+      changes += (changes.empty() ? "" : "; ") + word;
+      std::replace(changes.begin(), changes.end(), ',', ' ');  // of the table's cells
+    }
     if (names.empty())
       for (const auto& entry : std::filesystem::directory_iterator(argv[1]))
         names.push_back(entry.path().stem().string());
     std::sort(names.begin(), names.end());
     fmt::print(
         "scene,engine,stage,ending,time,sigma_xx,sigma_yy,sigma_xy,mu_star,Phi,z,z_star,held,budget,missed,"
-        "penetration,cpu_seconds\n");
+        "penetration,cpu_seconds,changes\n");
     for (const std::string& name : names) {
-      const Scene scene = read_scene(std::string(argv[1]) + "/" + name + ".toml");
-      scene.dimension == 2 ? run<2>(name, scene) : run<3>(name, scene);
+      const Scene scene = read_scene(std::string(argv[1]) + "/" + name + ".toml", overrides);
+      scene.dimension == 2 ? run<2>(name, scene, changes) : run<3>(name, scene, changes);
     }
     return 0;
   } catch (const std::exception& error) {

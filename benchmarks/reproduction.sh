@@ -15,7 +15,7 @@ it. The size that was run stands in each head; a quick size is a first look. Sce
 END
 if ! ls "$results"/*/report.txt >/dev/null 2>&1; then echo "No results are here yet."; fi
 # In the order of the chapter.
-for name in flow-law flow-kappa flow-friction flow-restitution cohesive-flow compression triaxial critical-state consolidation; do
+for name in flow-law flow-kappa flow-friction flow-restitution inclined-plane annular-shear cohesive-flow compression triaxial critical-state consolidation regimes; do
   folder=$results/$name
   [ -f "$folder/report.txt" ] || continue
   title=$(sed -n '1s/^[^:]*: //p' "$folder/report.txt")

@@ -8,6 +8,7 @@
 #   layouts          what each layout costs (Google Benchmark)
 #   stages           what each stage of a step costs (Google Benchmark)
 #   md_scaling       speed, stages and memory of md from 1e3 to 1e6 grains (about five minutes, 3 GB; --quick: to 64000, half a minute)
+#   engine_scaling   cost per grain and step and memory of both engines, 1e3 to 1e6 grains (cd: to 1e5), size ratios 1, 10 and 50
 #   neighbour_sizes  cost of making a neighbour list: equal grains, size ratios 1:10 and 1:50, dilute gases
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   cd_runs          whole runs of cd: time per step and contact, share of the solver, steps that missed
@@ -95,6 +96,9 @@ for name in "${names[@]}"; do
         continue
       fi ;;
     md_scaling) "$bin/benchmarks/md_scaling" | tee "$out/md_scaling.csv" ;;
+    engine_scaling)
+      "$bin/benchmarks/engine_scaling" "$out"
+      rm -f "$out"/*.png ;;
     md_drift) "$bin/benchmarks/md_drift" | tee "$out/md_drift.csv" ;;
     neighbour_sizes) "$bin/benchmarks/neighbour_sizes" | tee "$out/neighbour_sizes.csv" ;;
     solver_sweeps) "$bin/benchmarks/solver_sweeps" | tee "$out/solver_sweeps.csv" ;;

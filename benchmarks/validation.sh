@@ -344,6 +344,19 @@ hold; `moved`: bytes that a grain-step moves by the layout; `floor`: the ns that
 END
 csv_table "$results/md_scaling/md_scaling.csv"
 measured_on md_scaling
+if [ -f "$results/engine_scaling/engine_scaling.csv" ]; then
+  cat <<'END'
+## Cost of both engines against the number of grains, and the ratio of sizes
+
+`benchmarks/run.sh engine_scaling`; what was run stands at the head of `benchmarks/engine_scaling.cpp`. ns of processor time per grain and step (median of
+five batches, least and most), resident bytes per grain.
+
+END
+  csv_table "$results/engine_scaling/engine_scaling.csv"
+  printf '![cost per grain and step](../benchmarks/results/engine_scaling/cost.svg)\n\n![memory per grain](../benchmarks/results/engine_scaling/memory.svg)\n\n'
+  if [ -f "$results/engine_scaling/finding.md" ]; then cat "$results/engine_scaling/finding.md"; echo; fi
+  measured_on engine_scaling
+fi
 if [ -f "$results/md_drift/md_drift.csv" ]; then
   cat <<'END'
 ## Drift of md over many steps

@@ -111,6 +111,30 @@ void check_wall(Report& report, const std::string& path, const BodySpec& body) {
               reads);
 }
 
+/// Two walls across one direction don't start in the same place and, where both motions are imposed, don't meet.
+void check_wall_pair(Report& report, std::size_t k, std::size_t other) {
+  const Scene& scene = report.scene;
+  const BodySpec &a = scene.bodies[other], &b = scene.bodies[k];
+  if (a.shape != BodyShape::wall || b.shape != BodyShape::wall || a.across != b.across || !a.at || !b.at) return;
+  const auto across = static_cast<std::size_t>(a.across);
+  const std::string path = fmt::format("body[{}].", k);
+  const Paths reads = {fmt::format("body[{}]", other), "run"};
+  const double gap = *b.at - *a.at;
+  if (gap == 0)
+    return report.add(path + "at", fmt::format("{}at: body[{}], a wall too, stands in the same place", path, other),
+                      reads);
+  const auto imposed = [&](const BodySpec& wall) {
+    return wall.guide.empty() && (wall.free.size() <= across || !wall.free[across]);
+  };
+  const auto speed = [&](const BodySpec& wall) { return wall.velocity.size() > across ? wall.velocity[across] : 0.0; };
+  if (!imposed(a) || !imposed(b) || !ends_in_time(scene)) return;
+  const double meeting = -gap / (speed(b) - speed(a));  // not positive, or not a number: never
+  report.rule(!(meeting > 0 && meeting <= *scene.run.duration), path + "velocity",
+              fmt::format("{}velocity: the wall crosses body[{}] at the time {:.6g}, before the end of the run", path,
+                          other, meeting),
+              reads);
+}
+
 void check_ring(Report& report, const std::string& path, const BodySpec& body) {
   const Paths reads = {path + "shape", "cell.periodic", "dimension"};
   report.rule(body.radius.has_value(), path + "radius", path + "radius is needed with shape = \"ring\"", reads);
@@ -236,6 +260,7 @@ void check_bodies(Report& report) {
   Paths names;
   std::set<std::string> seen;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) check_wall_pair(report, k, other);
     const std::string path = fmt::format("body[{}].name", k), &name = scene.bodies[k].name;
     report.rule(!name.empty(), path, path + " is empty");
     report.rule(name.empty() || seen.insert(name).second, path,

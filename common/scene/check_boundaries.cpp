@@ -1,5 +1,6 @@
 // The rules of smooth boundaries: planes and cylinders.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,32 @@ void check_plane(Report& report, std::size_t k) {
                 {"cell.periodic", "dimension"});
 }
 
+/// Planes that face each other leave room between them, at the start and, where both motions are imposed, to the end.
+void check_facing(Report& report, std::size_t k, std::size_t other) {
+  const Scene& scene = report.scene;
+  const PlaneSpec &a = scene.planes[other], &b = scene.planes[k];
+  const auto dim = static_cast<std::size_t>(scene.dimension);
+  for (const PlaneSpec* plane : {&a, &b})
+    if (plane->point.size() != dim || plane->normal.size() != dim) return;
+  double aa = 0, bb = 0, ab = 0, gap = 0, closing = 0;
+  for (std::size_t c = 0; c < dim; ++c) {
+    aa += a.normal[c] * a.normal[c], bb += b.normal[c] * b.normal[c], ab += a.normal[c] * b.normal[c];
+    gap += (b.point[c] - a.point[c]) * a.normal[c];
+    closing -=
+        ((b.velocity.size() == dim ? b.velocity[c] : 0) - (a.velocity.size() == dim ? a.velocity[c] : 0)) * a.normal[c];
+  }
+  if (!(ab < -(1 - 1e-12) * std::sqrt(aa * bb))) return;  // they don't face each other, or a normal is zero
+  const std::string path = fmt::format("plane[{}].", k);
+  const Paths reads = {fmt::format("plane[{}]", other), "run"};
+  if (!(gap > 0))
+    return report.add(path + "point", fmt::format("{}point: no room is left before plane[{}]", path, other), reads);
+  if (a.mass || b.mass || !ends_in_time(scene)) return;
+  report.rule(closing * *scene.run.duration < gap, path + "velocity",
+              fmt::format("{}velocity: the plane crosses plane[{}] at the time {:.6g}, before the end of the run", path,
+                          other, gap / closing),
+              reads);
+}
+
 void check_cylinder(Report& report, std::size_t k) {
   const Scene& scene = report.scene;
   const CylinderSpec& cylinder = scene.cylinders[k];
@@ -61,7 +88,10 @@ void check_cylinder(Report& report, std::size_t k) {
 }  // namespace
 
 void check_boundaries(Report& report) {
-  for (std::size_t k = 0; k < report.scene.planes.size(); ++k) check_plane(report, k);
+  for (std::size_t k = 0; k < report.scene.planes.size(); ++k) {
+    check_plane(report, k);
+    for (std::size_t other = 0; other < k; ++other) check_facing(report, k, other);
+  }
   for (std::size_t k = 0; k < report.scene.cylinders.size(); ++k) check_cylinder(report, k);
 }
 

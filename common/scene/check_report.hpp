@@ -48,6 +48,12 @@ inline bool periodic_everywhere(const Scene& scene) {
 
 inline char axis(std::size_t direction) { return "xyz"[direction]; }
 
+/// Whether the run lasts for run.duration, whatever happens: it is one stage without conditions.
+inline bool ends_in_time(const Scene& scene) {
+  return scene.run.duration && scene.stages.empty() && scene.run.until.empty() && !scene.run.equilibrium &&
+         !scene.run.unbalanced;
+}
+
 /// Whether some contact makes grains turn.
 bool rotates(const Scene& scene);
 

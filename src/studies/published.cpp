@@ -20,6 +20,7 @@ constexpr std::string_view gilabert = "Roux and Chevoir 2010; Gilabert et al. 20
 constexpr std::string_view estrada = "Roux and Chevoir 2010; Estrada et al. 2008";
 constexpr std::string_view chialvo = "Chialvo, Sun and Sundaresan 2012";
 constexpr std::string_view critical_digits = "jamming densities, fitted there: 0.5 %";
+constexpr std::string_view koval = "Roux and Chevoir 2010; Koval et al. 2009";
 constexpr std::string_view drawn = "printed as a statement";
 
 constexpr std::array table = {
@@ -53,6 +54,26 @@ constexpr std::array table = {
     Published{"kappa.visible", Claim::at_least, 0.01, 0, chapter, "\"an effect\" at 40: more than the 1 % of none"},
     Published{"kappa.compliant", Claim::equal, 0, 0.02, "Galet: one law in both engines",
               "2 %: two engines with the same compliance"},
+    // Flows whose stress is not uniform.
+    Published{"slope.ratio", Claim::equal, 0, 0.02, chapter, "\"equal to tan theta\": 2 %, the width of symbols"},
+    Published{"slope.uniform_I", Claim::equal, 0, 0.2, chapter,
+              "\"constant\": 0.2 of I are 5 % of mu* at I = 0.1, the width of the law"},
+    Published{"slope.uniform_Phi", Claim::equal, 0, 0.02, chapter, "\"constant\": 2 %, the width of symbols"},
+    Published{"slope.local_mu", Claim::equal, 0, 0.01, chapter,
+              "\"the law of homogeneous shear\": the spread of mu*_min"},
+    Published{"slope.local_Phi", Claim::equal, 0, 0.01, chapter,
+              "\"the law of homogeneous shear\": the spread of Phi_max"},
+    Published{"slope.flows_above", Claim::at_least, 0, 0, chapter, drawn},
+    Published{"annulus.moment", Claim::equal, 0, 0.02, koval, "balance of moments; 2 %: noise of rings"},
+    Published{"annulus.local_mu", Claim::equal, 0, 0.01, koval,
+              "\"doesn't depend on the stress\": the spread of mu*_min"},
+    Published{"annulus.local_Phi", Claim::equal, 0, 0.01, koval,
+              "\"doesn't depend on the stress\": the spread of Phi_max"},
+    Published{"annulus.converges", Claim::at_least, 0, 0, "Galet: gradients fall as 1/R_i", drawn},
+    Published{"annulus.creep", Claim::at_least, 0, 0, koval, drawn},
+    // The chapter's last table: effects over what counts as one.
+    Published{"regimes.Y", Claim::at_least, 1, 0, chapter, "printed O; 1: the effect that counts as one"},
+    Published{"regimes.N", Claim::at_most, 1, 0, chapter, "printed N; 1: the effect that counts as one"},
     // Isotropic compression of spheres (Agnolin and Roux 2007, PRE 76, 061302, table of states; N = 4000, kappa =
     // 39000).
     Published{"compression.Phi_A", Claim::equal, 0.637, 0.001, agnolin, about},

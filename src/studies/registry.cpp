@@ -18,9 +18,9 @@ namespace galet {
 
 namespace {
 
-constexpr std::array studies = {flow_law_study,       flow_friction_study, flow_restitution_study,
-                                flow_kappa_study,     compression_study,   cohesive_flow_study,
-                                critical_state_study, triaxial_study,      consolidation_study};
+constexpr std::array studies = {flow_law_study,       flow_kappa_study,     flow_friction_study, flow_restitution_study,
+                                inclined_plane_study, annular_shear_study,  cohesive_flow_study, compression_study,
+                                triaxial_study,       critical_state_study, consolidation_study, regimes_study};
 
 }  // namespace
 

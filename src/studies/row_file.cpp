@@ -79,6 +79,37 @@ TimeSeries series_in(const Json& json) {
   return series;
 }
 
+/// An array of numbers per layer or ring: position, grains, velocity, shear rate, fluctuation, temperature, Phi,
+/// stress.
+Json profile_json(const std::vector<ProfileRow>& profile) {
+  Json json = Json::array();
+  for (const ProfileRow& row : profile) {
+    Json cells{row.position, row.grains};
+    for (const Vec<3>& vector : {row.velocity, row.shear_rate})
+      for (int a = 0; a < 3; ++a) cells.push_back(vector[a]);
+    for (const double value : {row.fluctuation, row.temperature, row.solid_fraction}) cells.push_back(value);
+    for (int k = 0; k < 9; ++k) cells.push_back(row.stress(k / 3, k % 3));
+    json.push_back(cells);
+  }
+  return json;
+}
+
+std::vector<ProfileRow> profile_in(const Json& json) {
+  std::vector<ProfileRow> profile;
+  for (const Json& cells : json) {
+    std::size_t next = 0;
+    const auto read = [&] { return number(cells.at(next++)); };
+    ProfileRow row;
+    row.position = read(), row.grains = static_cast<int>(read());
+    for (Vec<3>* vector : {&row.velocity, &row.shear_rate})
+      for (int a = 0; a < 3; ++a) (*vector)[a] = read();
+    row.fluctuation = read(), row.temperature = read(), row.solid_fraction = read();
+    for (int k = 0; k < 9; ++k) row.stress(k / 3, k % 3) = read();
+    profile.push_back(row);
+  }
+  return profile;
+}
+
 RunResult run_in(const Json& json) {
   RunResult run;
   run.engine = engine_kind(json.at("engine"));
@@ -116,6 +147,7 @@ void write_row(const std::string& directory, const StudyRow& row) {
   for (const auto& [name, value] : row.plan.parameters) json["parameters"][name] = value;
   json["run"] = Json::parse(to_json(row.run, row.plan.name));
   if (row.plan.keep_series) json["series"] = series_json(row.run.series);
+  if (row.plan.keep_profile) json["profile"] = profile_json(row.run.measures.profile);
   std::filesystem::create_directories(std::filesystem::path(directory) / "rows");
   write_file(path_of(directory, row.plan), json.dump(1) + "\n");
 }
@@ -127,8 +159,10 @@ std::optional<StudyRow> read_row(const std::string& directory, const StudyRun& r
     const Json json = Json::parse(read_file(path));
     if (json.at("scene_hash") != scene_hash(run)) return std::nullopt;
     if (run.keep_series && !json.contains("series")) return std::nullopt;
+    if (run.keep_profile && !json.contains("profile")) return std::nullopt;
     StudyRow row{run, run_in(json.at("run")), true};
     if (run.keep_series) row.run.series = series_in(json["series"]);
+    if (run.keep_profile) row.run.measures.profile = profile_in(json["profile"]);
     if (!row.usable()) return std::nullopt;
     return row;
   } catch (const Json::exception&) {

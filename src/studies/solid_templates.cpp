@@ -36,11 +36,11 @@ mass = 1.0
 
 [material]
 friction = {}
-restitution = 0.2
+restitution = {}
 normal_law = "hertz"
 poisson_ratio = 0.3
 stiffness_level = {}
-
+{}
 [initial]
 kind = "gas"
 solid_fraction = 0.3
@@ -49,11 +49,11 @@ solid_fraction = 0.3
 pressure = 1.0
 
 [run]
-samples = 150
+samples = {}
 average_from = 0.5
 )",
                                  scene.title, scene.seed, engine_name(scene.engine), scene.grains, scene.friction,
-                                 scene.stiffness_level);
+                                 scene.restitution, scene.stiffness_level, scene.material, scene.samples);
   if (scene.engine == EngineKind::cd) text += "\n[cd]\ntolerance = 1e-4\n";
   if (state == 'D') return text + rest_stage("D", scene.equilibrium, "", "");
   text += rest_stage("A", scene.equilibrium, "friction = 0.0\n", "");

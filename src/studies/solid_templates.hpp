@@ -18,6 +18,9 @@ struct SolidScene {
   double friction = 0.3;
   double stiffness_level = 39000;  ///< at P = 1; ignored by rigid grains
   double equilibrium = 1e-7;       ///< kinetic energy per grain of the assembled states, units of P d^3
+  double restitution = 0.2;
+  std::string material;  ///< further lines of [material]
+  int samples = 150;     ///< rows of each stage
 };
 
 /// Head and the stages that assemble the state 'A', 'C' or 'D'; the last of them is called by that letter.

@@ -41,6 +41,18 @@ namespace consolidation {
 std::vector<StudyRun> plan(StudySize size);
 StudyReport report(const std::vector<StudyRow>& rows);
 }  // namespace consolidation
+namespace inclined_plane {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace inclined_plane
+namespace annular_shear {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace annular_shear
+namespace regimes {
+std::vector<StudyRun> plan(StudySize size);
+StudyReport report(const std::vector<StudyRow>& rows);
+}  // namespace regimes
 
 inline constexpr Study flow_law_study{
     "flow-law",
@@ -132,5 +144,40 @@ inline constexpr Study consolidation_study{
     Observable::solid_fraction,
     consolidation::plan,
     consolidation::report};
+
+inline constexpr Study inclined_plane_study{"inclined-plane",
+                                            "Flow down a rough inclined plane, and the law of homogeneous shear",
+                                            "Roux and Chevoir 2010, sec. 3.3 (Prochnow 2002; da Cruz 2004)",
+                                            "disks +-20 %, mu = 0.4, e = 0.1, on a floor of glued disks; K_N = 2e5 m g "
+                                            "/ d (quick size: 2e4); cd at dt = 0.01 sqrt(d / "
+                                            "g), and finer at 20 degrees; homogeneous shear in the periodic cell",
+                                            Observable::mu_star,
+                                            inclined_plane::plan,
+                                            inclined_plane::report};
+
+inline constexpr Study annular_shear_study{
+    "annular-shear",
+    "Annular shear: the local law at several radii, and creep",
+    "Roux and Chevoir 2010, sec. 3.3 (Koval et al. 2009)",
+    "disks +-20 %, mu = 0.4, e = 0.1, whole annulus, inner ring of surface speed sqrt(P / m), outer one of arcs under "
+    "P; "
+    "kappa = 1e4 "
+    "(quick size: 1e3) or rigid; homogeneous shear of the same material in the periodic cell",
+    Observable::mu_star,
+    annular_shear::plan,
+    annular_shear::report};
+
+inline constexpr Study regimes_study{
+    "regimes",
+    "Which parameters matter in which regime",
+    "Roux and Chevoir 2010, last table",
+    "flows and assembly: disks +-20 %; solids: equal spheres (Hertz, Mindlin); quick size: 120 to 200 grains; each "
+    "parameter is "
+    "changed "
+    "alone from a "
+    "reference; kappa of cd: from rigid to elastic contacts; type I has no rows of cd, whose contacts don't deform",
+    Observable::solid_fraction,
+    regimes::plan,
+    regimes::report};
 
 }  // namespace galet

@@ -31,6 +31,7 @@ struct StudyRun {
   std::vector<std::pair<std::string, double>> parameters;  ///< what the sweep varies, by name
   std::string scene;                                       ///< TOML text; runs as it is with `galet run`
   bool keep_series = false;                                ///< the evaluation reads the series, not only the averages
+  bool keep_profile = false;                               ///< likewise run.measures.profile
 
   /// NaN when the run has no such parameter.
   double parameter(std::string_view name) const;
@@ -39,7 +40,7 @@ struct StudyRun {
 /// A finished run.
 struct StudyRow {
   StudyRun plan;
-  RunResult run;      ///< of a kept row: what its file holds (no last state, no measures)
+  RunResult run;      ///< of a kept row: what its file holds (no last state, no measures but the profile)
   bool kept = false;  ///< found finished in the folder and not run again
   bool usable() const { return run.ending != Ending::interrupted && run.ending != Ending::failed; }
   const Estimate& operator[](Observable observable) const { return run.averages[observable]; }

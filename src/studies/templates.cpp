@@ -65,7 +65,8 @@ std::string shear_scene(const ShearScene& scene) {
   text += "\n[loading]\npressure = 1.0\n";
   if (!staged) text += fmt::format("kind = \"plane_shear\"\ninertial_number = {}\n", scene.inertial_number);
   if (scene.engine == EngineKind::cd)
-    text += fmt::format("\n[cd]\ntolerance = 1e-3\n{}", scene.compliance ? "compliance = true\n" : "");
+    text += fmt::format("\n[cd]\ntolerance = 1e-3\n{}{}", scene.compliance ? "compliance = true\n" : "",
+                        scene.cd_dt_factor > 0 ? fmt::format("dt_factor = {}\n", scene.cd_dt_factor) : "");
   text += fmt::format("\n[run]\nsamples = {}\n", rows_of_a_run);
   const double last = scene.volume_strain > 0 ? scene.volume_strain : scene.strain;
   text += fmt::format("average_from = {:.6g}\n", scene.settling / last);

@@ -25,6 +25,7 @@ struct ShearScene {
   double dense_strain = 0;   ///< > 0: a dense start; a stage before shears frictionless grains by so much
   double volume_strain = 0;  ///< > 0: a last stage of this strain at held volume, in which averages are taken
   bool compliance = false;   ///< cd: contacts have the material's stiffness
+  double cd_dt_factor = 0;   ///< > 0: in place of the default
 };
 std::string shear_scene(const ShearScene& scene);
 

@@ -14,6 +14,7 @@
 #include "src/studies/solid_templates.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
+#include "src/studies/triaxial_curve.hpp"
 
 namespace galet::triaxial {
 
@@ -22,35 +23,13 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double reference_level = 8400, stiff_level = 39000;
 
-/// The triaxial part of a run: axial strain, volume strain and deviator over lateral pressure, each counted from its
-/// start.
-struct Curve {
-  std::vector<double> strain, volume, deviator;
-};
-
-Curve curve_of(const StudyRow& row) {
-  Curve curve;
-  const auto& stages = row.run.stages;
-  if (stages.size() < 2 || stages.back().name != "triaxial") return curve;
-  const double start = stages[stages.size() - 2].time;
-  const Measurement& zero = stages[stages.size() - 2].last;
-  for (const Measurement& at : row.run.series.rows) {
-    if (at[Observable::time] <= start) continue;
-    const double lateral = 0.5 * (at[Observable::sigma_xx] + at[Observable::sigma_yy]);
-    curve.strain.push_back(at[Observable::eps_zz] - zero[Observable::eps_zz]);
-    curve.volume.push_back(at[Observable::eps_v] - zero[Observable::eps_v]);
-    curve.deviator.push_back(at[Observable::sigma_zz] / lateral - 1);
-  }
-  return curve;
-}
-
 /// q/P at the peak and dilatancy D = -d eps_v / d eps_a there, from means over windows of 0.01 in strain: single rows
 /// fluctuate, and the largest of many noisy values is above the peak.
 struct Peak {
   double deviator = none, dilatancy = none, strain = none;
 };
 
-Peak peak_of(const Curve& curve) {
+Peak peak_of(const TriaxialCurve& curve) {
   constexpr double window = 0.01;
   Peak peak;
   for (std::size_t k = 0; k < curve.strain.size(); ++k) {
@@ -73,7 +52,7 @@ Peak peak_of(const Curve& curve) {
 double friction_angle(double deviator) { return std::asin(deviator / (2 + deviator)) * 180 / std::numbers::pi; }
 
 /// q/P at an axial strain, by linear interpolation.
-double deviator_at(const Curve& curve, double strain) {
+double deviator_at(const TriaxialCurve& curve, double strain) {
   for (std::size_t k = 1; k < curve.strain.size(); ++k)
     if (curve.strain[k] >= strain && curve.strain[k - 1] < strain) {
       const double t = (strain - curve.strain[k - 1]) / (curve.strain[k] - curve.strain[k - 1]);
@@ -86,7 +65,7 @@ double deviator_at(const Curve& curve, double strain) {
 template <class Value>
 Estimate over_seeds(const std::vector<const StudyRow*>& rows, Value&& value) {
   std::vector<Estimate> values;
-  for (const StudyRow* row : rows) values.push_back({value(curve_of(*row)), 0});
+  for (const StudyRow* row : rows) values.push_back({value(triaxial_curve(*row)), 0});
   return weighted_mean(values);
 }
 
@@ -99,15 +78,15 @@ void report_peaks(StudyReport& report, const std::vector<StudyRow>& rows) {
   for (const double friction : values_of(rows, "mu")) {
     const auto found = rows_of(rows, EngineKind::md, 'A', friction, reference_level);
     report.add(fmt::format("phi, degrees, mu = {:g}, A (md)", friction),
-               over_seeds(found, [](const Curve& curve) { return friction_angle(peak_of(curve).deviator); }),
+               over_seeds(found, [](const TriaxialCurve& curve) { return friction_angle(peak_of(curve).deviator); }),
                fmt::format("triaxial.phi_{:g}", friction));
     report.add(fmt::format("dilatancy at the peak, mu = {:g}, A (md)", friction),
-               over_seeds(found, [](const Curve& curve) { return peak_of(curve).dilatancy; }),
+               over_seeds(found, [](const TriaxialCurve& curve) { return peak_of(curve).dilatancy; }),
                fmt::format("triaxial.dilatancy_{:g}", friction));
   }
   const auto deviator = [&](EngineKind engine, char state, double level) {
     return over_seeds(rows_of(rows, engine, state, 0.3, level),
-                      [](const Curve& curve) { return peak_of(curve).deviator; });
+                      [](const TriaxialCurve& curve) { return peak_of(curve).deviator; });
   };
   const Estimate one{1, 0}, reference = deviator(EngineKind::md, 'A', reference_level);
   report.add("peak q/P of C over A, - 1, mu = 0.3 (md)",
@@ -122,7 +101,7 @@ void report_peaks(StudyReport& report, const std::vector<StudyRow>& rows) {
 void report_types(StudyReport& report, const std::vector<StudyRow>& rows) {
   const auto at = [&](char state, double level, double strain) {
     return over_seeds(rows_of(rows, EngineKind::md, state, 0.3, level),
-                      [&](const Curve& curve) { return deviator_at(curve, strain); });
+                      [&](const TriaxialCurve& curve) { return deviator_at(curve, strain); });
   };
   constexpr double early = 2, late = 0.005;
   const Estimate one{1, 0};
@@ -140,7 +119,7 @@ Figure curve_figure(const std::vector<StudyRow>& rows, bool deviator) {
       "Triaxial compression of spheres", "axial strain", deviator ? "q / P" : "volume strain", false, false, {}};
   for (const StudyRow& row : rows) {
     if (row.plan.parameter("seed") != 1) continue;
-    const Curve curve = curve_of(row);
+    const TriaxialCurve curve = triaxial_curve(row);
     Series series;
     series.label = fmt::format("{}, {}, mu = {:g}", engine_name(row.plan.engine),
                                static_cast<char>(row.plan.parameter("state")), row.plan.parameter("mu"));
