@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keeps the order in which keys are written; NaN becomes null
 
-Json of(const Estimate& estimate) { return {{"value", estimate.value}, {"error", estimate.error}}; }
+Json json_of(const Estimate& estimate) { return {{"value", estimate.value}, {"error", estimate.error}}; }
 
 CsvCell cell(double value) { return std::isfinite(value) ? CsvCell(value) : CsvCell(); }
 
@@ -27,10 +27,10 @@ constexpr std::array measured = {Observable::mu_star,         Observable::solid_
                                  Observable::z_star,          Observable::rattler_fraction, Observable::mean_overlap,
                                  Observable::inertial_number, Observable::stiffness_level};
 
-Json of(const StudyRow& row) {
+Json json_of(const StudyRow& row) {
   Json json{{"name", row.plan.name}, {"engine", engine_name(row.plan.engine)}, {"scene_hash", scene_hash(row.plan)}};
   for (const auto& [name, value] : row.plan.parameters) json["parameters"][name] = value;
-  for (const Observable observable : measured) json[std::string(info(observable).name)] = of(row[observable]);
+  for (const Observable observable : measured) json[std::string(info(observable).name)] = json_of(row[observable]);
   json["dt"] = row.run.dt;
   json["steps"] = row.run.steps;
   json["seconds"] = row.run.cpu_seconds;
@@ -41,9 +41,9 @@ Json of(const StudyRow& row) {
   return json;
 }
 
-Json of(const StudyFinding& finding) {
+Json json_of(const StudyFinding& finding) {
   Json json{{"quantity", finding.quantity},
-            {"ours", of(finding.ours)},
+            {"ours", json_of(finding.ours)},
             {"claim", claim_text(finding.published)},
             {"published", finding.published.value},
             {"uncertainty", finding.published.uncertainty},
@@ -116,8 +116,8 @@ std::string study_json(const Study& study, const StudyOutcome& outcome) {
             {"rows", Json::array()},
             {"costs", Json::array()},
             {"remarks", outcome.report.remarks}};
-  for (const StudyFinding& finding : outcome.report.findings) json["findings"].push_back(of(finding));
-  for (const StudyRow& row : outcome.rows) json["rows"].push_back(of(row));
+  for (const StudyFinding& finding : outcome.report.findings) json["findings"].push_back(json_of(finding));
+  for (const StudyRow& row : outcome.rows) json["rows"].push_back(json_of(row));
   for (const CostPair& pair : cost_pairs(study, outcome.rows))
     json["costs"].push_back({{"state", pair.state}, {"md", pair.md}, {"cd", pair.cd}});
   return json.dump(2);
