@@ -116,8 +116,7 @@ void colours(benchmark::State& state) {
   count_items(state, static_cast<double>(state.iterations()) * static_cast<double>(i.size()), "contact");
 }
 
-/// From rest each time, 50 sweeps, by a solver that holds the packed form of the problem or not (`plain`: rigid
-/// contacts have one). What the problem costs to load is in it.
+/// From rest each time, 50 sweeps; the solver's own copy of the problem is part of the cost.
 template <int D>
 void sweeps(benchmark::State& state) {
   constexpr Layout layout{D, true};
