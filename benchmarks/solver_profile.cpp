@@ -89,6 +89,12 @@ Times times_of_siconos(const cd::DiscreteProblem& problem, const std::string& so
   return times;
 }
 
+/// Eight curves can be told apart: the automatic choice, one of each kind of method, and Siconos.
+bool shown(const std::string& solver) {
+  const std::array<std::string, 5> own{"auto", "ags", "nncg", "pgs-frozen", "newton"};
+  return solver.starts_with("siconos") || std::find(own.begin(), own.end(), solver) != own.end();
+}
+
 /// Share of problems solved within each factor of the fastest; a problem that nobody solves counts for nobody.
 void write_profile(const std::string& stem, std::size_t measure, const std::map<std::string, std::vector<Times>>& all) {
   const std::size_t level = 1, problems = all.begin()->second.size();
@@ -112,9 +118,15 @@ void write_profile(const std::string& stem, std::size_t measure, const std::map<
       series.y.push_back(static_cast<double>(k) / static_cast<double>(problems));
       series.y.push_back(static_cast<double>(k + 1) / static_cast<double>(problems));
     }
-    if (!factors.empty()) figure.series.push_back(series);
+    if (!factors.empty() && shown(solver)) figure.series.push_back(series);
   }
   if (!figure.series.empty()) write_figure(stem, figure);
+}
+
+/// Underscores are subscripts in figures.
+std::string dashed(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
 }
 
 std::string rows_of(const std::string& name, const cd::DiscreteProblem& problem, const std::string& solver,
@@ -150,7 +162,7 @@ int profile(const std::string& folder, const std::string& out, double limit) {
     for (const std::string_view solver : cd::discrete_solvers())
       add(std::string(solver), times_of(problem, std::string(solver), limit));
     for (const std::string& solver : bench::siconos_solvers(problem.block))
-      add("siconos " + solver, times_of_siconos(problem, solver, limit, scratch.path()));
+      add("siconos " + dashed(solver), times_of_siconos(problem, solver, limit, scratch.path()));
     fmt::print(stderr, "{}\n", file.stem().string());
   }
   for (auto& [solver, times] : all) times.resize(files.size());

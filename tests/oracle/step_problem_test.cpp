@@ -317,8 +317,9 @@ void expect_solution(const StepProblem& step, double error) {
   EXPECT_LT((u - vector(step.u)).norm(), 1e-13 * (u.norm() + vector(step.problem.q).norm())) << "u = W r + q";
 }
 
-/// The global form says the same as the local one: its reduction, its equations of motion, and its answer.
-void expect_global(const StepProblem& local, const StepProblem& global) {
+/// The global form says the same as the local one: its reduction, its equations of motion, and (where `solved`) its
+/// answer.
+void expect_global(const StepProblem& local, const StepProblem& global, bool solved) {
   const DiscreteProblem back = reduced(global.global);
   const Eigen::MatrixXd w = dense(local.problem);
   ASSERT_EQ(back.block, local.problem.block);
@@ -337,6 +338,7 @@ void expect_global(const StepProblem& local, const StepProblem& global) {
   const Eigen::VectorXd miss =
       problem.mass * vector(global.v) - problem.jacobian * vector(global.r) - vector(problem.f);
   EXPECT_LT(miss.norm(), 1e-13 * (problem.mass.norm() + 1) * (vector(global.v).norm() + 1));
+  if (!solved) return;
   // An answer to one is an answer to the other.
   DiscreteOptions options;
   options.error = 1e-9;
@@ -362,7 +364,7 @@ void check_layout() {
       expect_operator(problem, free, step.problem);
       // The residual of cd (relative to impulses) at 1e-12 and errS measure the same map in other scales.
       expect_solution(step, 1e-9);
-      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global));
+      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global), true);
     }
 }
 
@@ -383,7 +385,7 @@ void check_turning() {
       EXPECT_GT(turning, 0.1) << "some of its contacts bear impulses";
       expect_operator(problem, free, step.problem);
       expect_solution(step, 1e-9);
-      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global));
+      expect_global(step, DiscreteForm<Y>::of(problem, free, solved.reaction, ProblemForm::global), true);
     }
 }
 
@@ -460,7 +462,7 @@ void check_step(const test::RichLaw* law) {
   // The engine's residual counts against the impulses, errS against the largest of impulses and motions: not above
   // it but for the scale of the blocks (a factor of a few).
   expect_solution(step, 1e-7);
-  expect_global(step, global);
+  expect_global(step, global, false);  // solving these to 1e-9 takes seconds
 }
 
 TEST(StepProblem, OfEnginesIsSolvedByTheirImpulses) {
