@@ -278,28 +278,20 @@ END
   state_rows "D" "Φ = 0.5923, z* = 4.55, 11.1 % rattlers (Agnolin and Roux 2007)" "P/M" isotropic_3d ""
   echo
 fi
-if [ -f "$results/gradient_flows/annulus.csv" ]; then
+if [ -f "$results/gradient_flows/slope.csv" ]; then
   cat <<'END'
-## Flows whose stress is not uniform
+## Stop and flow on a rough inclined plane
 
-`benchmarks/run.sh gradient_flows`; what was run stands at the head of `benchmarks/gradient_flows.cpp`. Stop and flow on a rough inclined plane, a layer
-of disks 12 d deep:
+`benchmarks/run.sh gradient_flows`; what was run stands at the head of `benchmarks/gradient_flows.cpp`: a layer of disks 12 d deep.
 
 END
   csv_table "$results/gradient_flows/slope.csv"
   cat <<'END'
-`cd` takes a coarse step in both (0.02 of the unit of time, 0.07 inertial times at the floor). It flows slower than md, and its μ* is some 0.02 higher:
-the step is suspected, finer ones were not tried here (in plane shear, above, 0.02 inertial times make 0.005); near rest it goes on trembling at 1e-5.
-
-Annular shear: the local law, ring by ring, beside homogeneous shear at the ring's I. The stress ratio follows 1/r² to a per mille, as the balance of
-torques wants, but it is not that of homogeneous shear at the same I: it lies 0.05 to 0.11 below it, and material flows
-below μ*_min = 0.26. An annulus this narrow is not in the inertial regime of a local law: the stress ratio falls by a seventh per diameter, and what
-flows fast agitates its neighbours. The difference halves where the gradient does: one sample of md with R_i = 24 d and the same surface speed had
-μ* = 0.371, 0.344, 0.318 at I = 0.143, 0.097, 0.072, which is 0.046, 0.023, 0.021 below 0.26 + 1.1 I. That it vanishes for large radii is thus
-suspected, not shown.
+`cd` takes a coarse step (0.02 of the unit of time, 0.07 inertial times at the floor); near rest it goes on trembling at 1e-5. It flows slower than md. The
+step is not the cause: see the study [inclined-plane](reproduction.md#flow-down-a-rough-inclined-plane-and-the-law-of-homogeneous-shear), which has the local law too; annular shear is
+[a study](reproduction.md#annular-shear-the-local-law-at-several-radii-and-creep) as well.
 
 END
-  csv_table "$results/gradient_flows/annulus.csv"
   measured_on gradient_flows
 fi
 if [ -f "$results/faults/faults.txt" ]; then
