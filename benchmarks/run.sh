@@ -28,7 +28,7 @@
 #   siconos_hard_cases  contact problems of hard cases given to Siconos; skipped where it is not installed
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
 #                    docs/reproduction.md; not among the default
-#   gradient_flows   inclined plane (stop and flow) and annular shear beside homogeneous shear, both engines
+#   gradient_flows   stop and flow on a rough inclined plane, both engines
 #   faults           runs of both engines killed at 200 random moments each, a full file system, 1e4 damaged checkpoints, 1e5 scenes with
 #                    mistakes
 #   solver_profile   every contact solver on every FCLIB problem of the folder GALET_FCLIB, beside Siconos where it is installed (about ten
@@ -126,8 +126,7 @@ for name in "${names[@]}"; do
       # A case that fails is a result too.
       "$bin/src/galet" verify --all --out "$out" | tee "$out/table.txt" || true ;;
     gradient_flows)
-      "$bin/benchmarks/gradient_flows" slope | tee "$out/slope.csv"
-      "$bin/benchmarks/gradient_flows" annulus 3 | tee "$out/annulus.csv" ;;
+      "$bin/benchmarks/gradient_flows" | tee "$out/slope.csv" ;;
     faults)
       {
         GALET_KILLS=200 "$bin/tests/command/command_tests"

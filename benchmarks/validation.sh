@@ -284,8 +284,9 @@ if [ -f "$results/presets/presets.csv" ]; then
 
 `benchmarks/run.sh presets`. Stresses, μ*, Φ and z are those of the run's summary (of stages before the last: their last sample). `held`: what the loading asks
 for at the end of a stage and what was there (mean and scatter of the rows of its last third; between walls and down a slope: of the middle of
-the profile). `budget`: md: energy not accounted for over energy dissipated; cd: energy that contacts made over energy they dissipated.
-`missed`: steps of cd above the solver's tolerance. `penetration`: the largest, over d.
+the profile; under gravity: stress over the weight above; between rings: radial stress, and the moment ring by ring). `budget`: md: energy not accounted for over energy dissipated; cd: energy that contacts made over energy they dissipated.
+`missed`: steps of cd above the solver's tolerance. `penetration`: the largest, over d. `changes`: fields of the scene that were changed for the table, to
+make runs shorter; empty: the scene as it is.
 
 END
   csv_table "$results/presets/presets.csv"
@@ -295,30 +296,43 @@ END
     grep -q "^$name," "$results/presets/presets.csv" || missing="$missing $name"
   done
   [ -z "$missing" ] || printf 'Not in the table, because not yet run for it:%s.\n\n' "$missing"
+  if [ -f "$results/presets/finding.md" ]; then cat "$results/presets/finding.md"; echo; fi
   measured_on presets
-fi
-if [ -f "$results/gradient_flows/annulus.csv" ]; then
   cat <<'END'
-## Flows whose stress is not uniform
+### Assembled states against the literature
 
-`benchmarks/run.sh gradient_flows`; what was run stands at the head of `benchmarks/gradient_flows.cpp`. Stop and flow on a rough inclined plane, a layer
-of disks 12 d deep:
+Scenes of the table (500 spheres, 1000 disks) and, for state A at N = 4000 with Hertz contacts, [the section above](#isotropic-compression-of-frictionless-hertz-spheres). Published: about; the
+protocols, sizes and contact laws differ. Grade S: stated in the chapter; P: digits read in the source; M+, M: digits not read again in the source, of high and of medium confidence.
+
+| state | published | grade | scene, stage | engine | Φ | z | z* |
+|---|---|---|---|---|---|---|---|
+END
+  # state_rows STATE PUBLISHED GRADE SCENE STAGE
+  state_rows() {
+    awk -F, -v state="$1" -v published="$2" -v grade="$3" -v scene="$4" -v stage="$5" '
+      $1 == scene && $3 == stage { printf "| %s | %s | %s | %s%s | %s | %s | %s | %s |\n", state, published, grade, scene,
+                                   stage == "" ? "" : ", " stage, $2, $10, $11, $12 }' "$results/presets/presets.csv"
+  }
+  state_rows "2D, frictionless" "Φ = 0.842 ± 0.002 (50:50 disks 1:1.4, O'Hern et al. 2003); chapter: 0.85" "M+, S" frictionless_2d ""
+  state_rows "3D, frictionless (A)" "Φ = 0.639 ± 0.001 (O'Hern et al. 2003); A: 0.637, z* = 6.07, 1.3 % rattlers (Agnolin and Roux 2007)" "M+/P; M" assembly_3d A
+  state_rows "C" "Φ = 0.635, z* = 4.56, 13.3 % rattlers (Agnolin and Roux 2007)" "M" assembly_3d C
+  state_rows "D" "Φ = 0.5923, z* = 4.55, 11.1 % rattlers (Agnolin and Roux 2007)" "P/M" isotropic_3d ""
+  echo
+fi
+if [ -f "$results/gradient_flows/slope.csv" ]; then
+  cat <<'END'
+## Stop and flow on a rough inclined plane
+
+`benchmarks/run.sh gradient_flows`; what was run stands at the head of `benchmarks/gradient_flows.cpp`: a layer of disks 12 d deep.
 
 END
   csv_table "$results/gradient_flows/slope.csv"
   cat <<'END'
-`cd` takes a coarse step in both (0.02 of the unit of time, 0.07 inertial times at the floor). It flows slower than md, and its μ* is some 0.02 higher:
-the step is suspected, finer ones were not tried here (in plane shear, above, 0.02 inertial times make 0.005); near rest it goes on trembling at 1e-5.
-
-Annular shear: the local law, ring by ring, beside homogeneous shear at the ring's I. The stress ratio follows 1/r² to a per mille, as the balance of
-torques wants, but it is not that of homogeneous shear at the same I: it lies 0.05 to 0.11 below it, and material flows
-below μ*_min = 0.26. An annulus this narrow is not in the inertial regime of a local law: the stress ratio falls by a seventh per diameter, and what
-flows fast agitates its neighbours. The difference halves where the gradient does: one sample of md with R_i = 24 d and the same surface speed had
-μ* = 0.371, 0.344, 0.318 at I = 0.143, 0.097, 0.072, which is 0.046, 0.023, 0.021 below 0.26 + 1.1 I. That it vanishes for large radii is thus
-suspected, not shown.
+`cd` takes a coarse step (0.02 of the unit of time, 0.07 inertial times at the floor); near rest it goes on trembling at 1e-5. It flows slower than md. The
+step is not the cause: see the study [inclined-plane](reproduction.md#flow-down-a-rough-inclined-plane-and-the-law-of-homogeneous-shear), which has the local law too; annular shear is
+[a study](reproduction.md#annular-shear-the-local-law-at-several-radii-and-creep) as well.
 
 END
-  csv_table "$results/gradient_flows/annulus.csv"
   measured_on gradient_flows
 fi
 if [ -f "$results/faults/faults.txt" ]; then

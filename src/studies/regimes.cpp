@@ -85,7 +85,7 @@ void report_cell(StudyReport& report, const std::vector<StudyRow>& rows, Regime 
 
 /// One line per regime: ours, and the printed letter where it is another one.
 void report_table(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine, StudySize size) {
-  int same = 0, other = 0, open = 0;
+  int same = 0, other = 0, open = 0, absent = 0;
   for (int r = 0; r < regime_count; ++r) {
     const Regime regime = static_cast<Regime>(r);
     const RegimeRow row = regime_row(regime, size);
@@ -95,15 +95,21 @@ void report_table(StudyReport& report, const std::vector<StudyRow>& rows, Engine
         line += fmt::format("  {} -", column_names[column]);
         continue;
       }
-      const char ours = letter_of(effects_of(rows, regime, engine, column)), printed = row.printed[column];
+      const std::vector<Effect> effects = effects_of(rows, regime, engine, column);
+      const char ours = letter_of(effects), printed = row.printed[column];
+      if (std::isnan(decisive_effect(effects).change.value)) {
+        ++absent;
+        line += fmt::format("  {} . (printed {})", column_names[column], printed);
+        continue;
+      }
       ++(ours == '?' ? open : ours == printed ? same : other);
       line += fmt::format("  {} {}{}", column_names[column], ours,
                           ours == printed ? std::string() : fmt::format(" (printed {})", printed));
     }
     report.remarks.push_back(line);
   }
-  report.remarks.push_back(
-      fmt::format("{}: {} letters as printed, {} others, {} undecided", engine_name(engine), same, other, open));
+  report.remarks.push_back(fmt::format("{}: {} letters as printed, {} others, {} undecided, {} not run",
+                                       engine_name(engine), same, other, open, absent));
 }
 
 Figure effect_figure(const std::vector<StudyRow>& rows, EngineKind engine) {
@@ -160,7 +166,8 @@ StudyReport report(const std::vector<StudyRow>& rows) {
   report.remarks.emplace_back(
       "findings: the change of the quantity that decides, over the change that counts as one. Y: |change| - k s is "
       "above "
-      "it, N: |change| + k s below, ?: neither; s: standard error, k: Student's 97.5 % quantile of the samples, or 2 "
+      "it, N: |change| + k s below, ?: neither, .: not run; s: standard error, k: Student's 97.5 % quantile of the "
+      "samples, or 2 "
       "of "
       "long averages. \"yes (2 errors)\" is undecided. In tables of runs: regime 1 to 6 as in the figures, changed 0: "
       "the reference, 1 to 6: I, kappa, e, mu, mu_R, eta");

@@ -289,35 +289,6 @@ point = [0, 0]
 normal = [0, 1]
 )",
        {"7:10: plane[0].normal: the plane crosses the periodic direction y; set cell.periodic to false there"}},
-      {"planes_without_room",
-       sound + R"(cell.periodic = [true, false]
-[[plane]]
-point = [0, 0]
-normal = [0, 1]
-[[plane]]
-point = [0, -1]
-normal = [0, -2]
-)",
-       {"10:9: plane[1].point: no room is left before plane[0]"}},
-      {"planes_that_cross",
-       sound + R"(cell.periodic = [true, false]
-[[plane]]
-point = [0, 0]
-normal = [0, 1]
-velocity = [3, 5]
-[[plane]]
-point = [4, 20]
-normal = [0, -1]
-velocity = [0, -20]
-)",
-       {"13:12: plane[1].velocity: the plane crosses plane[0] at the time 0.8, before the end of the run"}},
-      {"walls_that_cross",
-       sound + R"(cell = {size = [10, 30], periodic = [true, false]}
-body = [{name = "a", shape = "wall", at = 1}, {name = "b", shape = "wall", at = 21, velocity = [1, -40]}, {name = "c", shape = "wall", at = 1}]
-)",
-       {"6:96: body[1].velocity: the wall crosses body[0] at the time 0.5, before the end of the run",
-        "6:107: body[2].velocity: the wall crosses body[1] at the time 0.5, before the end of the run",
-        "6:141: body[2].at: body[0], a wall too, stands in the same place"}},
       {"plane_incomplete",
        sound + R"([[plane]]
 velocity = [0, 0]

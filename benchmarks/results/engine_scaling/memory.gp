@@ -1,0 +1,34 @@
+# gnuplot script; run it in its own folder: gnuplot 'memory.gp'
+set encoding utf8
+set title 'Memory of both engines'
+set xlabel 'number of grains'
+set logscale x
+set format x '10^{%L}'
+set mxtics 10
+set xrange [800:1250000]
+set ylabel 'bytes per grain'
+set logscale y
+set format y '10^{%L}'
+set mytics 10
+set yrange [1000:10000]
+set autoscale noextend
+set offsets 0, 0, 0, 0
+set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
+set border linewidth 1.2
+set errorbars 0.8
+set key outside below center horizontal Left reverse samplen 2.5 height 0.8 spacing 1.1
+set terminal svg size 800,606 font 'DejaVu Sans,15' background rgb 'white' enhanced
+set output './memory.svg'
+plot './memory.dat' index 0 using 1:2 with linespoints linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'md, shear of equal spheres', \
+     './memory.dat' index 1 using 1:2 with points linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'md, sizes 1:1', \
+     './memory.dat' index 2 using 1:2 with points linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'md, sizes 1:10', \
+     './memory.dat' index 3 using 1:2 with points linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'md, sizes 1:50', \
+     './memory.dat' index 4 using 1:2 with linespoints linecolor rgb '#e69f00' pointtype 11 pointsize 0.7 linewidth 1.5 title 'cd, shear of equal spheres'
+if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
+  set terminal pngcairo size 1600,1212 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
+} else {
+  set terminal png size 800,600 enhanced
+}
+set output './memory.png'
+replot
+set output
