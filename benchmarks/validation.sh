@@ -65,7 +65,7 @@ engines tend to, and never counted smaller than their standard error.
 - packing: contact forces of 40 frictionless disks after a change of load, which statics determines (rms over the mean force);
 - gas: kinetic energy left of 500 disks, e = 0.9, after six collisions each, eight seeds;
 - biaxial: q/P of six packings of 100 disks, mean over axial strains from 1 % to 2 %;
-- triaxial: (σ₃/P − 1) of six packings of 100 spheres, mean over axial strains from 1 % to 2 %;
+- triaxial: σ_zz/P − 1 of six packings of 100 spheres, mean over axial strains from 1 % to 2 %;
 - flow_0.1, flow_0.01: μ* of 300 disks in plane shear at that I.
 
 md: processor seconds of the steps per unit of the column `per`; cd likewise. A cost between two settings is interpolated along the front of the best ones.

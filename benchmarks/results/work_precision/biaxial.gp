@@ -10,7 +10,8 @@ set ylabel 'error / limit'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
-set yrange [0.002490101632002406:0.44508390136234144]
+set yrange [0.0024610429186422895:0.4447186598271168]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

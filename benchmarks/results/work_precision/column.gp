@@ -5,12 +5,13 @@ set xlabel 'processor seconds per column'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [5.4880800000000005e-05:0.419185]
+set xrange [7.30568e-05:0.5739575]
 set ylabel 'error'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
 set yrange [1.2399999744e-06:0.658585479375]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

@@ -5,12 +5,13 @@ set xlabel 'processor seconds per strain'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [0.01:1]
+set xrange [0.0340834:1.339109375]
 set ylabel 'error / limit'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
-set yrange [0.0011384212399314989:0.11921150509259833]
+set yrange [0.0010267609933850036:0.10487559009304663]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

@@ -11,6 +11,7 @@ set logscale y
 set format y '10^{%L}'
 set mytics 10
 set yrange [0.00017103297966228266:0.08260002634220075]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

@@ -5,12 +5,13 @@ set xlabel 'processor seconds per impact'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [9.18304e-06:0.0022543750000000003]
+set xrange [1.7670160000000003e-05:0.0037033249999999995]
 set ylabel 'error'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
 set yrange [9.588488568e-05:0.409956231]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

@@ -5,12 +5,13 @@ set xlabel 'processor seconds per change of load'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [4.2288e-05:8.6431625]
+set xrange [9.45696e-05:13.82325]
 set ylabel 'error'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
 set yrange [3.1114353919999996e-06:1.018881269]
+set autoscale noextend
 set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

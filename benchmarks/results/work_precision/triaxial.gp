@@ -1,0 +1,33 @@
+# gnuplot script; run it in its own folder: gnuplot 'triaxial.gp'
+set encoding utf8
+set title 'triaxial'
+set xlabel 'processor seconds per axial strain'
+set logscale x
+set format x '10^{%L}'
+set mxtics 10
+set xrange [4.40674:176.41875]
+set ylabel 'error / limit'
+set logscale y
+set format y '10^{%L}'
+set mytics 10
+set yrange [0.0019431954408968832:0.42723614067361626]
+set autoscale noextend
+set offsets 0, 0, 0, 0
+set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
+set border linewidth 1.2
+set errorbars 0.8
+set key outside below center horizontal Left reverse samplen 2.5 height 0.8 spacing 1.1
+set terminal svg size 800,562 font 'DejaVu Sans,15' background rgb 'white' enhanced
+set output './triaxial.svg'
+plot './triaxial.dat' index 0 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'md', \
+     './triaxial.dat' index 1 using 1:2 with linespoints linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'md, front', \
+     './triaxial.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'cd', \
+     './triaxial.dat' index 3 using 1:2 with linespoints linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'cd, front'
+if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
+  set terminal pngcairo size 1600,1124 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
+} else {
+  set terminal png size 800,600 enhanced
+}
+set output './triaxial.png'
+replot
+set output
