@@ -11,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "cd/discrete/fclib.hpp"
