@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+
 #include <Eigen/LU>
 
 #include "cd/discrete/cone.hpp"
