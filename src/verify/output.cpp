@@ -117,7 +117,8 @@ std::string list_text(const std::vector<const Case*>& cases) {
     for (const EngineKind kind : {EngineKind::md, EngineKind::cd}) {
       const Stance stance = each->part(kind).stance;
       if (stance == Stance::absent) continue;
-      engines += (engines.empty() ? "" : " ") + engine_name(kind) + (stance == Stance::refuses ? " (refuses)" : "");
+      engines += fmt::format("{}{}{}", engines.empty() ? "" : " ", engine_name(kind),
+                             stance == Stance::refuses ? " (refuses)" : "");
     }
     table.add({each->name, name_of(each->effort), engines, fmt::format("{}", fmt::join(each->tags, " ")), each->scene});
   }
