@@ -42,7 +42,8 @@ HardCase first_step(const std::string& name, Scene scene, const std::vector<doub
   verify::Report report;
   scene.cd.dt = dt, scene.cd.tolerance = tolerance, scene.cd.max_sweeps = 100000000;
   verify::Trial<D> trial(report, EngineKind::cd, scene);
-  const cd::StepProblem step = dynamic_cast<cd::ProblemSource&>(trial.engine()).step_with_problem(cd::ProblemForm::local);
+  const cd::StepProblem step =
+      dynamic_cast<cd::ProblemSource&>(trial.engine()).step_with_problem(cd::ProblemForm::local);
   HardCase made{.name = name, .problem = step.problem, .normal = {}};
   made.problem.title = name;
   if (weights.empty()) return made;
