@@ -143,7 +143,7 @@ for name in "${names[@]}"; do
       elif [ "$name" = solver_starts ]; then
         "$bin/benchmarks/solver_starts" "$GALET_FCLIB/pile2d.hdf5" 1 | tee "$out/pile2d.csv"
       else
-        "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 2
+        "$bin/benchmarks/solver_profile" "$GALET_FCLIB" "$out" 0.7
       fi ;;
     *) echo "no benchmark called $name" >&2; exit 2 ;;
   esac

@@ -32,7 +32,8 @@ class Stages {
 
   GALET_INLINE std::size_t block(std::size_t group) const { return group < end_ ? group / groups : end_ / groups - 1; }
   GALET_INLINE static int lane(std::size_t group) { return static_cast<int>(group % groups) * W; }
-  /// Second members lie anywhere in memory: their records are asked for some blocks before they are read.
+  /// What is read some blocks later is asked for now: columns and blocks of rows, in whose stream the processor's own
+  /// guesses fall behind in large samples, and records of second members, which lie anywhere in memory.
   GALET_INLINE void fetch(std::size_t group) const {
     if (groups == 1 || group % groups == 0) {
       const double* columns = view_.columns + block(group) * RowColumns<Y>::count * block_rows;
