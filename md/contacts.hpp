@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "common/core/archive_columns.hpp"
 #include "common/core/column.hpp"
@@ -85,6 +86,12 @@ class Contacts {
     const RowBlock& block = blocks_[row / block_rows];
     if (block.touching >> row % block_rows & 1) return RowState::touching;
     return block.attracted >> row % block_rows & 1 ? RowState::attracted : RowState::apart;
+  }
+  /// Number of touching pairs.
+  std::size_t touching() const {
+    std::size_t count = 0;
+    for (const RowBlock& block : blocks_) count += static_cast<std::size_t>(std::popcount(block.touching));
+    return count;
   }
   bool touches(std::size_t row) const { return state(row) == RowState::touching; }
   bool acts(std::size_t row) const { return state(row) != RowState::apart; }

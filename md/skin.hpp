@@ -1,8 +1,12 @@
-// The skin of the neighbour list, tuned by the run itself: a wide skin lists pairs that never touch, a narrow one makes
-// the list anew too often. With e pairs per grain and unit skin that don't touch, a cost C of building (in evaluations
-// of a pair, per grain) and a skin s that lasted n steps, the cost per step e s' + C (s / n) / s' is least for
-//   s'^2 = C s / (e n)
-// It depends on counts only, never on time measured, so that runs are repeatable.
+// The skins of the neighbour lists, tuned by the run itself: a wide inner skin lists pairs that never touch, a narrow one
+// has the list taken anew from the outer one too often, whose skin decides how often pairs are searched for. With e
+// pairs per grain and unit skin that don't touch, a displacement v per step, P pairs in the outer list and costs in
+// evaluations of a pair, the cost per grain and step is
+//   e s + c P v / s + C v / (S - s)
+// c: of looking at an outer pair and carrying it on, C: of a search. It is least for
+//   s^2 = c P v / e       and, since P grows by e S,       (S - s)^2 = C s / (c e)
+// A skin s that lasted n steps tells v = s / n. All of it depends on counts only, never on time measured, so that runs
+// are repeatable.
 #pragma once
 
 #include <algorithm>
@@ -14,22 +18,30 @@ class Skin {
  public:
   explicit Skin(double diameter) : diameter_(diameter) {}
 
-  static constexpr double least = 0.005, most = 0.2;  ///< of the mean diameter
-  static constexpr double building_cost = 75;         ///< C
+  static constexpr double least = 0.003, most = 0.2;  ///< of the mean diameter
+  static constexpr double searching_cost = 75;        ///< C
+  static constexpr double pair_cost = 3;              ///< c
+  static constexpr double narrowing_cost = 15;        ///< c P
   static constexpr long longest_age = 250;            ///< steps after which a wide list is made anew
 
   /// Whether a list that still holds is wider than it should be.
   bool too_wide(double skin, long age) const { return age >= longest_age && skin > 3 * least * diameter_; }
 
-  /// The list is built with this skin once, before the first one: columns then have room for every list to come of a
+  /// The lists are built with this skin once, before the first one: columns then have room for every list to come of a
   /// sample that keeps its density.
   double widest() const { return most * diameter_; }
   double first() const { return 0.03 * diameter_; }
 
-  /// The next skin, after one that lasted `age` steps; `idle`: listed pairs per grain that don't touch.
+  /// The next inner skin, after one that lasted `age` steps; `idle`: listed pairs per grain that don't touch.
   double next(double skin, long age, double idle) const {
-    const double wanted = std::sqrt(building_cost * skin * skin / (std::max(idle, 1e-3) * std::max(age, 1L)));
+    const double wanted = std::sqrt(narrowing_cost * skin * skin / (std::max(idle, 1e-3) * std::max(age, 1L)));
     return std::clamp(std::clamp(wanted, skin / 4, 2 * skin), least * diameter_, most * diameter_);
+  }
+
+  /// The outer skin that goes with it; `idle_per_skin`: e.
+  double outer(double skin, double idle_per_skin) const {
+    const double wider = std::sqrt(searching_cost * skin / (pair_cost * std::max(idle_per_skin, 1e-3 / diameter_)));
+    return std::clamp(skin + wider, skin, widest());
   }
 
  private:

@@ -63,7 +63,7 @@ class SoftEngine final : public Engine<Y.dim> {
     equal_pairs_ = pairs_are_equal();
     mode_acceleration_.assign(bodies_.modes.size(), 0.0);
     for (const double skin : {skin_.widest(), skin_.first()}) {
-      list_.configure(range_, skin);
+      list_.configure(range_, skin, skin_.widest());
       rebuild_list();
     }
     evaluate(0);
@@ -359,10 +359,9 @@ class SoftEngine final : public Engine<Y.dim> {
   }
 
   void update_neighbours() {
-    long touching = 0;
-    for (std::size_t row = 0; row < list_.size(); ++row) touching += contacts_.touches(row);
-    const double idle = static_cast<double>(static_cast<long>(list_.size()) - touching) / bodies_.grains();
-    list_.configure(range_, skin_.next(list_.skin(), list_age_, idle));
+    const double idle = static_cast<double>(list_.size() - contacts_.touching()) / bodies_.grains();
+    const double skin = skin_.next(list_.skin(), list_age_, idle);
+    list_.configure(range_, skin, skin_.outer(skin, idle / list_.skin()));
     rebuild_list();
   }
 
@@ -370,15 +369,20 @@ class SoftEngine final : public Engine<Y.dim> {
     list_age_ = 0;
     list_bound_.set(0);
     fetch_positions();
-    if (order_.decayed()) rearrange(order_.sorted(bodies_.cell, bodies_.position));
+    const std::span<const int> group = bodies_.rigid.group;
+    const bool narrowed =
+        list_.narrow(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, group, order_.number());
+    if (!narrowed && order_.decayed()) rearrange(order_.sorted(bodies_.cell, bodies_.position));
     std::swap(contacts_, carried_);
-    list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, bodies_.rigid.group, order_.number());
-    order_.look_at(list_.pairs());
+    if (!narrowed) {
+      list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, group, order_.number());
+      order_.look_at(list_.pairs());
+      // Building wraps the grains into the cell.
+      for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
+    }
     contacts_.carry(carried_, list_, bodies_.grains());
     seen_.grains.make_room(contacts_.record_count(bodies_.grains()));
     set_row_constants();
-    // Building wraps the grains into the cell.
-    for (int i = 0; i < bodies_.grains(); ++i) seen_.grains.put_position(i, bodies_.position[i]);
   }
 
   /// Another order of the grains in memory; contacts keep what they remember.

@@ -10,10 +10,22 @@
 #include "common/core/column.hpp"
 #include "common/core/error.hpp"
 #include "common/core/parallel.hpp"
-#include "common/geometry/contact_frame.hpp"
 #include "common/neighbour/image.hpp"
 
 namespace galet {
+
+template <int D>
+void PairSight<D>::refuse_overlap(int i, int j, double overlap) const {
+  throw RunError(
+      fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
+                  "contact is too soft or the time step too large",
+                  std::min(name(i), name(j)), std::max(name(i), name(j)), overlap));
+}
+
+template <int D>
+void PairSight<D>::refuse_behind(int i, std::size_t plane) const {
+  throw RunError(fmt::format("grain {} is behind {}", name(i), boundary_name(planes, plane)));
+}
 
 template <int D>
 void NeighbourSearch<D>::find(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
@@ -21,7 +33,7 @@ void NeighbourSearch<D>::find(std::span<const Vec<D>> position, std::span<const 
                               double limit, PairColumns<D>& pairs) {
   pairs.i.clear(), pairs.j.clear(), pairs.image.clear();
   if (position.empty()) return;
-  const Sight sight{position, radius, cell, planes, group, number, cell.box.inverse(), limit};
+  const Sight sight{{position, radius, planes, number}, cell, group, cell.box.inverse(), limit};
   classify(radius);
   measure_extent(sight);
   fill_bins(sight);
@@ -146,17 +158,8 @@ void NeighbourSearch<D>::search_bin(int i, const SizeClass& size, int bin, const
   for (int k = size.start[bin]; k < size.start[bin + 1]; ++k) {
     const int j = size.grains[k];
     if (SameClass && (j < i || (j == i && !first_nonzero_positive<D>(image)))) continue;
-    const Vec<D> branch = sight.position[j] + shift;
-    const double touching = sight.radius[i] + sight.radius[j], cutoff = touching + sight.limit;
-    const double squared_distance = branch.squaredNorm();
-    if (squared_distance >= cutoff * cutoff) continue;
     if (!sight.group.empty() && sight.group[i] >= 0 && sight.group[i] == sight.group[j]) continue;
-    const double overlap = touching - std::sqrt(squared_distance);
-    if (overlap > 0.5 * std::min(sight.radius[i], sight.radius[j]))
-      throw RunError(
-          fmt::format("grains {} and {} overlap by {:.3g}, more than half of the smaller radius: the "
-                      "contact is too soft or the time step too large",
-                      std::min(sight.name(i), sight.name(j)), std::max(sight.name(i), sight.name(j)), overlap));
+    if (!sight.near(i, j, shift, sight.limit)) continue;
     if (SameClass || j > i)
       findings.own.push_back({j, image});
     else
@@ -206,12 +209,9 @@ void NeighbourSearch<D>::search_grain(int i, const Sight& sight, Findings& findi
   const std::size_t begin = findings.own.size();
   for (int size = 0; size <= class_of_[i]; ++size) search_class(i, size, sight, findings);
   std::sort(findings.own.begin() + static_cast<std::ptrdiff_t>(begin), findings.own.end());
-  for (std::size_t p = 0; p < sight.planes.size(); ++p) {
-    const ContactFrame<D> frame = plane_frame<D>(sight.position[i], sight.radius[i], sight.planes[p]);
-    if (frame.distance < 0)
-      throw RunError(fmt::format("grain {} is behind {}", sight.name(i), boundary_name(sight.planes, p)));
-    if (frame.gap < sight.limit) findings.own.push_back({static_cast<int>(sight.position.size() + p), Image<D>{}});
-  }
+  for (std::size_t p = 0; p < sight.planes.size(); ++p)
+    if (sight.near_plane(i, p, sight.limit))
+      findings.own.push_back({static_cast<int>(sight.position.size() + p), Image<D>{}});
 }
 
 template <int D>
@@ -303,6 +303,8 @@ MemoryUse NeighbourSearch<D>::memory() const {
   return use;
 }
 
+template struct PairSight<2>;
+template struct PairSight<3>;
 template class NeighbourSearch<2>;
 template class NeighbourSearch<3>;
 

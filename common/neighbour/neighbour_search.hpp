@@ -12,7 +12,9 @@
 // O(grains) times the number of classes.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,6 +23,7 @@
 #include "common/core/memory_use.hpp"
 #include "common/core/types.hpp"
 #include "common/geometry/cell.hpp"
+#include "common/geometry/contact_frame.hpp"
 #include "common/geometry/plane.hpp"
 
 namespace galet {
@@ -32,6 +35,36 @@ struct PairColumns {
   std::vector<int> i, j;
   std::vector<Image<D>> image;
   std::size_t size() const { return i.size(); }
+};
+
+/// Grains and planes, and whether two of them are near. Throws RunError, naming the grains, when a pair overlaps by more
+/// than half of the smaller radius or a grain is behind a plane.
+template <int D>
+struct PairSight {
+  std::span<const Vec<D>> position;
+  std::span<const double> radius;
+  std::span<const Plane<D>> planes;
+  std::span<const int> number;  ///< what messages call the grains; none: their indices
+
+  int name(int grain) const { return number.empty() ? grain : number[grain]; }
+  /// Whether the gap of grain i and the image of j at x_j + `lattice` is below `limit`; `shift` = lattice - x_i.
+  bool near(int i, int j, const Vec<D>& shift, double limit) const {
+    const double touching = radius[i] + radius[j], cutoff = touching + limit;
+    const double squared_distance = (position[j] + shift).squaredNorm();
+    if (squared_distance >= cutoff * cutoff) return false;
+    const double closest = touching - 0.5 * std::min(radius[i], radius[j]);
+    if (squared_distance < closest * closest) refuse_overlap(i, j, touching - std::sqrt(squared_distance));
+    return true;
+  }
+  bool near_plane(int i, std::size_t plane, double limit) const {
+    const ContactFrame<D> frame = plane_frame<D>(position[i], radius[i], planes[plane]);
+    if (frame.distance < 0) refuse_behind(i, plane);
+    return frame.gap < limit;
+  }
+
+ private:
+  [[noreturn]] void refuse_overlap(int i, int j, double overlap) const;
+  [[noreturn]] void refuse_behind(int i, std::size_t plane) const;
 };
 
 template <int D>
@@ -72,15 +105,11 @@ class NeighbourSearch {
     std::vector<Found> others;
   };
   /// What a search looks at.
-  struct Sight {
-    std::span<const Vec<D>> position;
-    std::span<const double> radius;
+  struct Sight : PairSight<D> {
     const Cell<D>& cell;
-    std::span<const Plane<D>> planes;
-    std::span<const int> group, number;
+    std::span<const int> group;
     Mat<D> to_fraction;
     double limit;
-    int name(int grain) const { return number.empty() ? grain : number[grain]; }
   };
 
   void classify(std::span<const double> radius);
@@ -107,6 +136,8 @@ class NeighbourSearch {
   std::vector<std::string> failures_;  ///< of the chunks of a search; empty: none
 };
 
+extern template struct PairSight<2>;
+extern template struct PairSight<3>;
 extern template class NeighbourSearch<2>;
 extern template class NeighbourSearch<3>;
 

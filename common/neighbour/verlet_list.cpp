@@ -25,42 +25,155 @@ double least_singular_value(const Mat<D>& matrix) {
 }  // namespace
 
 template <int D>
-void VerletList<D>::configure(double range, double skin) {
+void VerletList<D>::Reference::set(std::span<const Vec<D>> positions, std::span<const Plane<D>> planes,
+                                   const Mat<D>& box_then) {
+  position.assign(positions.begin(), positions.end());
+  box = box_then;
+  plane.clear();
+  for (const Plane<D>& boundary : planes) plane.push_back(boundary.point);
+}
+
+template <int D>
+void VerletList<D>::configure(double range, double skin, double outer) {
   require(range >= 0 && skin > 0, "a neighbour list needs range >= 0 and skin > 0");
+  require(outer == 0 || outer >= skin, "the outer list of a neighbour list has the wider skin");
   range_ = range;
   skin_ = skin;
+  wanted_outer_skin_ = outer;
+}
+
+/// Largest 2 |s_i| for which a list of that skin certainly holds in the cell (planes apart).
+template <int D>
+double VerletList<D>::room(const Reference& then, double skin, const Cell<D>& cell) const {
+  if (cell.box == then.box) return skin;
+  const double shrink = std::min(0.0, least_singular_value<D>(Mat<D>(cell.box * then.box.inverse())) - 1);
+  return skin + shrink * (2 * largest_radius_ + range_ + skin);
 }
 
 template <int D>
 double VerletList<D>::allowance(const Cell<D>& cell) const {
-  if (cell.box == box_reference_) return 0.5 * skin_;
-  const double shrink = std::min(0.0, least_singular_value<D>(Mat<D>(cell.box * box_reference_.inverse())) - 1);
-  return 0.5 * (skin_ + shrink * (2 * largest_radius_ + range_ + skin_));
+  return 0.5 * room(reference_, skin_, cell);
+}
+
+template <int D>
+typename VerletList<D>::Moves VerletList<D>::moves_since(const Reference& then, std::span<const Vec<D>> position,
+                                                         const Cell<D>& cell, std::span<const Plane<D>> planes) {
+  const Mat<D> deformation = cell.box * then.box.inverse();
+  const bool rigid_cell = cell.box == then.box;
+  Moves moves;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vec<D> affine = rigid_cell ? then.position[i] : Vec<D>(deformation * then.position[i]);
+    const double moved = (position[i] - affine).squaredNorm();
+    if (moved != moved) {  // the build says which grain is lost
+      moves.apart = moved;
+      return moves;
+    }
+    moves.apart = std::max(moves.apart, moved);
+    if (!planes.empty()) moves.grain = std::max(moves.grain, (position[i] - then.position[i]).squaredNorm());
+  }
+  moves.apart = std::sqrt(moves.apart), moves.grain = std::sqrt(moves.grain);
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    moves.plane = std::max(moves.plane, (planes[p].point - then.plane[p]).norm());
+  return moves;
+}
+
+template <int D>
+bool VerletList<D>::holds(const Reference& then, double skin, const Moves& moved, const Cell<D>& cell,
+                          double reserve) const {
+  if (!(room(then, skin, cell) >= 2 * moved.apart + reserve)) return false;
+  return then.plane.empty() || skin >= moved.grain + moved.plane + reserve;
 }
 
 template <int D>
 bool VerletList<D>::expired(std::span<const Vec<D>> position, const Cell<D>& cell, std::span<const Plane<D>> planes,
                             double reserve) const {
   if (builds_ == 0) return true;
-  const Mat<D> deformation = cell.box * box_reference_.inverse();
-  const bool rigid_cell = cell.box == box_reference_;
-  double largest = 0, largest_true = 0;
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const Vec<D> affine = rigid_cell ? reference_[i] : Vec<D>(deformation * reference_[i]);
-    const double moved = (position[i] - affine).squaredNorm();
-    if (moved != moved) {  // the build says which grain is lost
-      largest_move_ = moved;
-      return true;
-    }
-    largest = std::max(largest, moved);
-    if (!planes.empty()) largest_true = std::max(largest_true, (position[i] - reference_[i]).squaredNorm());
+  const Moves moved = moves_since(reference_, position, cell, planes);
+  largest_move_ = moved.apart;
+  return !holds(reference_, skin_, moved, cell, reserve);
+}
+
+/// Pairs of the outer list whose gap is within range + skin now: calls take(k) for each, k its place among the outer
+/// ones, in their order.
+template <int D>
+template <class Take>
+void VerletList<D>::take_near(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+                              std::span<const Plane<D>> planes, std::span<const int> number, Take take) {
+  const double limit = range_ + skin_;
+  const int grains = static_cast<int>(position.size());
+  const PairSight<D> sight{position, radius, planes, number};
+  for (std::size_t k = 0; k < outer_.size(); ++k) {
+    const int i = outer_.i[k], j = outer_.j[k];
+    const auto shift = [&] { return Vec<D>(lattice<D>(cell.box, outer_.image[k]) - position[i]); };
+    if (j >= grains ? sight.near_plane(i, j - grains, limit) : sight.near(i, j, shift(), limit)) take(k);
   }
-  largest_move_ = std::sqrt(largest);
-  if (!(2 * allowance(cell) >= 2 * largest_move_ + reserve)) return true;
-  double plane_moved = 0;
-  for (std::size_t p = 0; p < planes.size(); ++p)
-    plane_moved = std::max(plane_moved, (planes[p].point - plane_reference_[p]).norm());
-  return !planes.empty() && skin_ < std::sqrt(largest_true) + plane_moved + reserve;
+}
+
+/// The list from the outer one; row_of_outer_ says where each pair stands in it.
+template <int D>
+void VerletList<D>::take_all_near(std::span<const Vec<D>> position, std::span<const double> radius,
+                                  const Cell<D>& cell, std::span<const Plane<D>> planes, std::span<const int> number) {
+  // Each pair keeps its former row until it is looked at: origin_ is filled in on the way.
+  const std::size_t outer = outer_.size();
+  for (auto* column : {&pairs_.i, &pairs_.j, &origin_})
+    if (column->size() < outer) refill(*column, outer, 0);
+  if (pairs_.image.size() < outer) refill(pairs_.image, outer, Image<D>{});
+  std::size_t rows = 0, seen = 0;
+  take_near(position, radius, cell, planes, number, [&](std::size_t k) {
+    for (; seen < k; ++seen) row_of_outer_[seen] = -1;
+    pairs_.i[rows] = outer_.i[k], pairs_.j[rows] = outer_.j[k], pairs_.image[rows] = outer_.image[k];
+    origin_[rows] = row_of_outer_[k];
+    row_of_outer_[k] = static_cast<int>(rows++);
+    ++seen;
+  });
+  for (; seen < outer; ++seen) row_of_outer_[seen] = -1;
+  pairs_.i.resize(rows), pairs_.j.resize(rows), pairs_.image.resize(rows), origin_.resize(rows);
+}
+
+/// The outer list again from what it was made of.
+template <int D>
+void VerletList<D>::find_outer(std::span<const double> radius, const Cell<D>& cell, std::span<const Plane<D>> planes,
+                               std::span<const int> group, std::span<const int> number) {
+  Cell<D> then = cell;
+  then.box = outer_reference_.box;
+  std::vector<Plane<D>> boundaries(planes.begin(), planes.end());
+  for (std::size_t p = 0; p < boundaries.size(); ++p) boundaries[p].point = outer_reference_.plane[p];
+  search_.find(outer_reference_.position, radius, then, boundaries, group, number, range_ + outer_skin_, outer_);
+  outer_known_ = true;
+  match_outer_rows();
+}
+
+/// Where each outer pair stands in the list (both are sorted).
+template <int D>
+void VerletList<D>::match_outer_rows() {
+  refill(row_of_outer_, outer_.size(), -1);
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < pairs_.size(); ++row) {
+    const auto key = std::tie(pairs_.i[row], pairs_.j[row], pairs_.image[row]);
+    while (k < outer_.size() && std::tie(outer_.i[k], outer_.j[k], outer_.image[k]) < key) ++k;
+    if (k < outer_.size() && std::tie(outer_.i[k], outer_.j[k], outer_.image[k]) == key)
+      row_of_outer_[k] = static_cast<int>(row);
+  }
+}
+
+template <int D>
+bool VerletList<D>::narrow(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+                           std::span<const Plane<D>> planes, std::span<const int> group, std::span<const int> number) {
+  if (outer_skin_ == 0) return false;
+  const Moves moved = moves_since(outer_reference_, position, cell, planes);
+  if (!holds(outer_reference_, outer_skin_, moved, cell, skin_)) return false;
+  try {
+    if (!outer_known_) find_outer(radius, cell, planes, group, number);
+    take_all_near(position, radius, cell, planes, number);
+  } catch (const RunError&) {
+    forget_pairs(static_cast<int>(position.size()));
+    throw;
+  }
+  index_rows(static_cast<int>(position.size()));
+  refill(flipped_, pairs_.size(), std::uint8_t{0});
+  reference_.set(position, planes, cell.box);
+  ++narrowings_;
+  return true;
 }
 
 template <int D>
@@ -158,6 +271,7 @@ void VerletList<D>::take_old_rows(int grains) {
     pairs_.i[row] = old_pairs_.i[old], pairs_.j[row] = old_pairs_.j[old], pairs_.image[row] = old_pairs_.image[old];
   }
   index_rows(grains);
+  match_old_rows();
 }
 
 template <int D>
@@ -173,7 +287,9 @@ void VerletList<D>::renumber(const Permutation& step) {
   }
   sort_old_rows(grains);
   take_old_rows(grains);
-  if (!reference_.empty()) step.apply(reference_);
+  if (!reference_.position.empty()) step.apply(reference_.position);
+  if (!outer_reference_.position.empty()) step.apply(outer_reference_.position);
+  outer_known_ = false;
 }
 
 template <int D>
@@ -182,17 +298,24 @@ void VerletList<D>::build(std::span<Vec<D>> position, std::span<const double> ra
   try {
     wrap(position, cell, number);
     largest_radius_ = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
-    search_.find(position, radius, cell, planes, group, number, range_ + skin_, pairs_);
+    outer_skin_ = wanted_outer_skin_;
+    outer_known_ = outer_skin_ > 0;
+    if (outer_known_) {
+      search_.find(position, radius, cell, planes, group, number, range_ + outer_skin_, outer_);
+      outer_reference_.set(position, planes, cell.box);
+      refill(row_of_outer_, outer_.size(), -1);
+      take_all_near(position, radius, cell, planes, number);
+    } else {
+      search_.find(position, radius, cell, planes, group, number, range_ + skin_, pairs_);
+    }
   } catch (const RunError&) {
     // Rows that no longer match what their owner keeps about them must not be read.
     forget_pairs(static_cast<int>(position.size()));
     throw;
   }
   index_rows(static_cast<int>(position.size()));
-  reference_.assign(position.begin(), position.end());
-  box_reference_ = cell.box;
-  plane_reference_.clear();
-  for (const Plane<D>& plane : planes) plane_reference_.push_back(plane.point);
+  match_old_rows();
+  reference_.set(position, planes, cell.box);
   ++builds_;
 }
 
@@ -202,9 +325,10 @@ void VerletList<D>::forget_pairs(int grains) {
   first_.assign(grains + 1, 0);
   second_.assign(grains + 1, 0);
   rows_of_second_.clear(), origin_.clear(), flipped_.clear();
+  outer_skin_ = 0;
 }
 
-/// Row indices by grain, and the match between new and old rows (both sorted by (i, j, image)).
+/// Row indices by grain.
 template <int D>
 void VerletList<D>::index_rows(int grains) {
   const std::size_t rows = pairs_.size();
@@ -220,7 +344,12 @@ void VerletList<D>::index_rows(int grains) {
   cursor_.assign(second_.begin(), second_.end() - 1);
   for (std::size_t row = 0; row < rows; ++row)
     if (pairs_.j[row] < grains) rows_of_second_[cursor_[pairs_.j[row]]++] = static_cast<int>(row);
+}
 
+/// The match between new and old rows (both sorted by (i, j, image)).
+template <int D>
+void VerletList<D>::match_old_rows() {
+  const std::size_t rows = pairs_.size();
   refill(origin_, rows, -1);
   refill(flipped_, rows, std::uint8_t{0});
   std::size_t k = 0;
@@ -243,7 +372,8 @@ void VerletList<D>::index_rows(int grains) {
 template <int D>
 MemoryUse VerletList<D>::memory() const {
   MemoryUse use = search_.memory();
-  use.grains += bytes_of(first_, second_, reference_, wraps_, cursor_);
+  use.grains += bytes_of(first_, second_, reference_.position, outer_reference_.position, wraps_, cursor_);
+  use.pairs += bytes_of(outer_.i, outer_.j, outer_.image, row_of_outer_);
   use.pairs += bytes_of(pairs_.i, pairs_.j, pairs_.image, old_pairs_.i, old_pairs_.j, old_pairs_.image);
   use.pairs += bytes_of(rows_of_second_, origin_, flipped_, old_flipped_, old_order_);
   use.listed = size();
@@ -252,7 +382,7 @@ MemoryUse VerletList<D>::memory() const {
 
 template <int D>
 void VerletList<D>::save(Archive& archive, std::span<const int> number) const {
-  const std::size_t grains = reference_.size();
+  const std::size_t grains = reference_.position.size();
   const auto name = [&](int i) { return number.empty() || i >= static_cast<int>(grains) ? i : number[i]; };
   auto& pairs = archive.integers["neighbours.pairs"];
   pairs.clear();
@@ -261,14 +391,30 @@ void VerletList<D>::save(Archive& archive, std::span<const int> number) const {
     pairs.push_back(name(pairs_.j[row]));
     for (int a = 0; a < D; ++a) pairs.push_back(pairs_.image[row][a]);
   }
-  archive.integers["neighbours.builds"] = {builds_};
+  archive.integers["neighbours.builds"] = {builds_, narrowings_};
+  const auto put = [&](const Reference& then, std::vector<double>& reals) {
+    const std::size_t first = reals.size();
+    reals.resize(first + grains * D);
+    for (std::size_t i = 0; i < grains; ++i)
+      std::copy_n(then.position[i].data(), D, &reals[first + static_cast<std::size_t>(name(static_cast<int>(i))) * D]);
+    for (const Vec<D>& x : then.plane) reals.insert(reals.end(), x.begin(), x.end());
+    reals.insert(reals.end(), then.box.data(), then.box.data() + D * D);
+  };
   auto& reals = archive.reals["neighbours.reference"];
   reals.assign({range_, skin_, largest_radius_});
-  reals.resize(3 + grains * D);
-  for (std::size_t i = 0; i < grains; ++i)
-    std::copy_n(reference_[i].data(), D, reals.data() + 3 + static_cast<std::size_t>(name(static_cast<int>(i))) * D);
-  for (const Vec<D>& x : plane_reference_) reals.insert(reals.end(), x.begin(), x.end());
-  reals.insert(reals.end(), box_reference_.data(), box_reference_.data() + D * D);
+  put(reference_, reals);
+  auto& outer = archive.reals["neighbours.outer"];
+  outer.assign({outer_skin_});
+  if (outer_skin_ > 0) put(outer_reference_, outer);
+}
+
+/// Reads what save() has put there.
+template <int D>
+void VerletList<D>::Reference::take(const double* from, std::size_t grains, std::size_t planes) {
+  position.resize(grains), plane.resize(planes);
+  for (Vec<D>& x : position) x = Eigen::Map<const Vec<D>>(from), from += D;
+  for (Vec<D>& x : plane) x = Eigen::Map<const Vec<D>>(from), from += D;
+  box = Eigen::Map<const Mat<D>>(from);
 }
 
 template <int D>
@@ -288,13 +434,17 @@ void VerletList<D>::restore(const Archive& archive, int grains) {
     for (int a = 0; a < D; ++a) pairs_.image[row][a] = static_cast<int>(entry[2 + a]);
   }
   builds_ = integer_column(archive, "neighbours.builds").at(0);
+  narrowings_ = integer_column(archive, "neighbours.builds").at(1);
   range_ = reals[0], skin_ = reals[1], largest_radius_ = reals[2];
   const std::size_t planes = (reals.size() - 3 - D * D) / D - grains;
-  const double* from = reals.data() + 3;
-  reference_.resize(grains), plane_reference_.resize(planes);
-  for (Vec<D>& x : reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
-  for (Vec<D>& x : plane_reference_) x = Eigen::Map<const Vec<D>>(from), from += D;
-  box_reference_ = Eigen::Map<const Mat<D>>(from);
+  reference_.take(reals.data() + 3, grains, planes);
+  const auto& outer = real_column(archive, "neighbours.outer");
+  outer_skin_ = outer.at(0);
+  outer_known_ = false;
+  if (outer_skin_ > 0) {
+    if (outer.size() != reals.size() - 2) throw InputError("the checkpoint's outer list does not fit its grains");
+    outer_reference_.take(outer.data() + 1, grains, planes);
+  }
   keep_rows();
   for (std::size_t row = 0; row < rows; ++row)
     if (old_pairs_.j[row] < grains) put_in_order(row);
