@@ -57,7 +57,7 @@ double stream_rate() {
 template <Layout Y>
 double moved_per_grain(double listed) {
   constexpr double word = sizeof(double);
-  constexpr int columns = md::RowColumns<Y>::count - (Y.friction ? 1 : 0);
+  constexpr int columns = md::RowColumns<Y>::count(false);
   const double row =
       sizeof(md::RowBlock) / static_cast<double>(md::block_rows) + 2 * word * columns + 3 * word * md::out_size(Y);
   return listed * row + 3 * word * md::record_size(Y) + 2 * word * md::StateGroups<Y>::size +

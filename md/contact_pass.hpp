@@ -124,6 +124,7 @@ class ContactPass {
     view.constants = contacts.constants();
     view.constants_stride = contacts.equal_pairs() ? 0 : 1;
     view.columns = contacts.columns();
+    view.column_count = contacts.column_count();
     view.out = contacts.out();
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) view.gradient[D * a + b] = seen.gradient(a, b);

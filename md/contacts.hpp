@@ -45,6 +45,8 @@ class Contacts {
   std::size_t block_count() const { return blocks_.size(); }
   RowBlock* blocks() { return blocks_.data(); }
   double* columns() { return columns_.data()->value; }
+  /// Of each block.
+  std::size_t column_count() const { return static_cast<std::size_t>(C::count(varying_stiffness)); }
   const RowConstants* constants() const { return constants_.data(); }
   /// Whether the first block of constants serves all rows.
   bool equal_pairs() const { return equal_pairs_; }
@@ -52,10 +54,10 @@ class Contacts {
   const double* out() const { return out_.data()->value; }
 
   double& at(std::size_t row, int column) {
-    return columns_[row / block_rows * C::count + column].value[row % block_rows];
+    return columns_[row / block_rows * column_count() + column].value[row % block_rows];
   }
   double at(std::size_t row, int column) const {
-    return columns_[row / block_rows * C::count + column].value[row % block_rows];
+    return columns_[row / block_rows * column_count() + column].value[row % block_rows];
   }
   RowBlock& block_of(std::size_t row) { return blocks_[row / block_rows]; }
   double reach(std::size_t row) const { return constants_of(row).reach[row % block_rows]; }
@@ -115,25 +117,12 @@ class Contacts {
     clear(list, grains);
     for (std::size_t row = 0; row < rows_; ++row) {
       const int from = list.origin()[row];
-      if (from < 0) continue;
+      // A pair apart remembers nothing.
+      if (from < 0 || !old.acts(from)) continue;
       set_state(row, old.state(from));
-      // The last step's forces: what ends before the next pass needs them (laws/crossing.hpp).
-      for (int k = 0; k < out_size(Y); ++k) {
-        const bool twist = Y.friction && (D == 2 ? k == 2 : k >= 4 && k < 8);
-        out()[row * out_size(Y) + k] = (list.flipped(row) && !twist ? -1 : 1) * old.out()[from * out_size(Y) + k];
-      }
-      if constexpr (Y.friction) {
-        // When i and j change places, vectors and relative rotations change sign; the scalar spring of a disk contact
-        // and a rotation about the normal do not.
-        const double sign = list.flipped(row) ? -1 : 1;
-        const auto take = [&](int first, int last, double factor) {
-          for (int column = first; column < last; ++column) at(row, column) = factor * old.at(from, column);
-        };
-        take(C::spring, C::normal, D == 3 ? sign : 1);
-        take(C::normal, C::stiffness, sign);
-        take(C::stiffness, C::rolling, 1);
-        if constexpr (Y.rolling) take(C::rolling, C::pivoting, sign), take(C::pivoting, C::count, 1);
-      }
+      const double sign = list.flipped(row) ? -1 : 1;
+      carry_result(old, from, row, sign);
+      if constexpr (Y.friction) carry_memory(old, from, row, sign);
     }
   }
 
@@ -188,6 +177,27 @@ class Contacts {
       return out_vector(row, first);
   }
 
+  /// The last step's forces: what ends before the next pass needs them (laws/crossing.hpp).
+  void carry_result(const Contacts& old, std::size_t from, std::size_t row, double sign) {
+    const double* source = old.out() + from * out_size(Y);
+    double* target = out() + row * out_size(Y);
+    for (int k = 0; k < out_size(Y); ++k) {
+      const bool twist = Y.friction && (D == 2 ? k == 2 : k >= 4 && k < 8);
+      target[k] = (twist ? 1 : sign) * source[k];
+    }
+  }
+
+  /// When i and j change places (`sign` -1), vectors and relative rotations change sign; the scalar spring of a disk
+  /// contact and a rotation about the normal do not.
+  void carry_memory(const Contacts& old, std::size_t from, std::size_t row, double sign) {
+    const auto take = [&](int first, int last, double factor) {
+      for (int column = first; column < last; ++column) at(row, column) = factor * old.at(from, column);
+    };
+    take(C::spring, C::rolling, D == 3 ? sign : 1);
+    if constexpr (Y.rolling) take(C::rolling, C::pivoting, sign), take(C::pivoting, C::stiffness, 1);
+    if (varying_stiffness) take(C::stiffness, C::stiffness + 1, 1);
+  }
+
   /// Calls visit(name, components, value) for each quantity of a row that a checkpoint holds; value(contacts, row, k).
   template <class Visit>
   void each_part(Visit visit) const {
@@ -204,14 +214,13 @@ class Contacts {
     result("contacts.force", 0, D);
     if constexpr (Y.friction) {
       result("contacts.twist", D == 2 ? 2 : 4, D == 2 ? 1 : 3);
-      memory("contacts.spring", C::spring, C::normal);
-      if (varying_stiffness) memory("contacts.stiffness", C::stiffness, C::rolling);
-      if constexpr (D == 3) memory("contacts.normal", C::normal, C::stiffness);
+      memory("contacts.spring", C::spring, C::rolling);
+      if (varying_stiffness) memory("contacts.stiffness", C::stiffness, C::stiffness + 1);
     }
     if constexpr (Y.rolling) {
       result("contacts.torque", D == 2 ? 3 : 8, D == 2 ? 1 : 3);
       memory("contacts.rolling", C::rolling, C::pivoting);
-      if constexpr (D == 3) memory("contacts.pivoting", C::pivoting, C::count);
+      if constexpr (D == 3) memory("contacts.pivoting", C::pivoting, C::stiffness);
     }
   }
 
@@ -231,7 +240,7 @@ class Contacts {
     RowBlock empty{};
     for (int k = 0; k < block_rows; ++k) empty.i[k] = record_at(grains), empty.j[k] = record_at(grains + 1);
     refill(blocks_, blocks, empty);
-    refill(columns_, std::max<std::size_t>(1, blocks * C::count), Line{});
+    refill(columns_, std::max<std::size_t>(1, blocks * column_count()), Line{});
     refill(out_, (blocks + 1) * out_size(Y), Line{});  // the last block's rows stay zero
     plane_rows_.clear();
     images_.reserve(128);  // more than a usual cell has: no growth in the middle of a run

@@ -25,6 +25,7 @@ struct Place {
   using V = Lanes<W>;
   typename LaneTypes<Y, V>::Vector normal;  ///< n, from i to j
   V distance;                               ///< |b|
+  V inverse_distance;
   Plane2<V> centres;                        ///< 2D: relative velocity of the centres
   V together_x;                             ///< 3D: first component of w_i + w_j
 };
@@ -177,7 +178,8 @@ GALET_INLINE Place<Y, W> place_of(const PassView& view, const RowBlock& block, i
   const V length_squared = squared(branch);
   result.distance = sqrt(length_squared);
   // 1 / r as r / r^2: the division does not wait for the root.
-  result.normal = result.distance * (V(1.0) / length_squared) * branch;
+  result.inverse_distance = result.distance * (V(1.0) / length_squared);
+  result.normal = result.inverse_distance * branch;
   return result;
 }
 

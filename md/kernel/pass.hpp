@@ -36,8 +36,8 @@ class Stages {
   /// guesses fall behind in large samples, and records of second members, which lie anywhere in memory.
   GALET_INLINE void fetch(std::size_t group) const {
     if (groups == 1 || group % groups == 0) {
-      const double* columns = view_.columns + block(group) * RowColumns<Y>::count * block_rows;
-      for (int line = 0; line < RowColumns<Y>::count; ++line) __builtin_prefetch(columns + line * block_rows);
+      const double* columns = view_.columns + block(group) * view_.column_count * block_rows;
+      for (int line = 0; line < RowColumns<Y>::count(false); ++line) __builtin_prefetch(columns + line * block_rows);
       const RowBlock* later = view_.blocks + block(group + ahead);
       __builtin_prefetch(later), __builtin_prefetch(reinterpret_cast<const char*>(later) + 64);
     }

@@ -102,16 +102,25 @@ class Rows {
   struct Pair : Place<Y, W>, Motion<Y, W> {
     using Motion<Y, W>::centres;
     V opening;      ///< opening velocity, n.(v_j - v_i)
+    V stretch;      ///< |b| / (R_i + R_j)
+    Vector across;  ///< 3D: tangential velocity of the centres
+    Spring rate;    ///< slip velocity
     Spring spring;  ///< elongation of the sliding spring, as stored, in the present frame
   };
 
   /// The W rows from `lane` on of a block: second stage.
   GALET_INLINE Pair meet(const Place<Y, W>& place, std::size_t index, int lane) const {
-    Pair at{place, motion_of<Y, W>(view_, view_.blocks[index], lane, place), {}, {}};
+    Pair at{place, motion_of<Y, W>(view_, view_.blocks[index], lane, place), {}, {}, {}, {}, {}};
     at.opening = dot(at.normal, at.centres);
     if constexpr (Y.friction) {
-      const double* columns = columns_of(index, lane);
-      at.spring = transported<Spring>(columns + C::spring * block_rows, at, columns);
+      at.stretch = at.distance * V::load(view_.constants[index * view_.constants_stride].inverse_reach + lane);
+      if constexpr (Y.dim == 2) {
+        at.rate = nmadd(at.stretch, at.surface, dot(tangent_of(at.normal), at.centres));
+      } else {
+        at.across = nmadd(at.opening, at.normal, at.centres);
+        at.rate = madd_cross(at.stretch * at.normal, at.surface, at.across);
+      }
+      at.spring = transported<Spring>(columns_of(index, lane) + C::spring * block_rows, at);
     }
     return at;
   }
@@ -156,11 +165,8 @@ class Rows {
         torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before, cross, block);
         if (__builtin_expect(cross.any, 0)) torque = select(cross.ends, cross.torque, torque);
       }
-      const V stretch = at.distance * V::load(constants.inverse_reach + lane);
-      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, opening, stretch, force, torque, cross,
-            block, out);
+      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, force, torque, cross, block, out);
       if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
-      if constexpr (Y.dim == 3) store(at.normal, columns + C::normal * block_rows);
     } else if constexpr (Y.dim == 2) {
       write_out(out, force);
     } else {
@@ -171,7 +177,7 @@ class Rows {
 
  private:
   GALET_INLINE double* columns_of(std::size_t index, int lane) const {
-    return view_.columns + index * C::count * block_rows + lane;
+    return view_.columns + index * view_.column_count * block_rows + lane;
   }
 
   /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
@@ -245,17 +251,16 @@ class Rows {
     value.x.store(column), value.y.store(column + block_rows), value.z.store(column + 2 * block_rows);
   }
 
+  GALET_INLINE static Plane2<V> tangent_of(const Plane2<V>& normal) { return {-normal.y, normal.x}; }
+
   /// A spring of the row's columns, brought from the last step's frame to the present one.
   template <class Value>
-  GALET_INLINE Value transported(const double* column, const Pair& at, const double* columns) const {
+  GALET_INLINE Value transported(const double* column, const Pair& at) const {
     const Value spring = load(column, Value{});
-    if constexpr (Y.dim == 3 && sizeof(Value) == sizeof(Space<V>)) {
-      // The twist comes first: it doesn't wait for the new normal.
-      const Space<V> before = load(columns + C::normal * block_rows, Space<V>{});
-      return carried(twisted(spring, before, at.together, half_before_), before, at.normal);
-    } else {
+    if constexpr (Y.dim == 3 && sizeof(Value) == sizeof(Space<V>))
+      return carried(spring, at.normal, at.inverse_distance, at.across, at.together, half_before_);
+    else
       return spring;
-    }
   }
 
   /// The springs of rows that part are given up; returns the elongation to store.
@@ -336,27 +341,24 @@ class Rows {
   }
 
   GALET_INLINE void slide(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
-                          double* columns, int lane, M touching, V stiffness_before, V opening, V stretch,
-                          Vector& force, const Spin& torque, const Crossing& cross, RowBlock& block, double* out) {
+                          double* columns, int lane, M touching, V stiffness_before, Vector& force, const Spin& torque,
+                          const Crossing& cross, RowBlock& block, double* out) {
     double* column = columns + C::spring * block_rows;
     const Resistance sliding{terms.tangential_ratio, softness_, terms.friction,
                              terms.tangential_viscosity * normal.critical, view_.kind.total};
     if constexpr (Y.dim == 2) {
-      const Plane2<V> tangent{-at.normal.y, at.normal.x};
-      const V rate = nmadd(stretch, at.surface, dot(tangent, at.centres));
-      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, rate, cross,
+      const Plane2<V> tangent = tangent_of(at.normal);
+      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, at.rate, cross,
                                 sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
-      write_out(out, force.x, force.y, stretch * tangential, torque, out_size(Y));
+      write_out(out, force.x, force.y, at.stretch * tangential, torque, out_size(Y));
     } else {
-      const Space<V> arm = stretch * at.normal;
-      const Space<V> rate = madd_cross(arm, at.surface, nmadd(opening, at.normal, at.centres));
-      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, rate,
-                                            cross, sums_.sliding, lane, block.sliding[0]);
+      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, sliding,
+                                            at.rate, cross, sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
-      const Space<V> twist = galet::md::cross(resisting, arm);
+      const Space<V> twist = galet::md::cross(resisting, at.stretch * at.normal);
       write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
       write_out(out + 4, twist.x, twist.y, twist.z, V(0.0), out_size(Y));
       if constexpr (Y.rolling) write_out(out + 8, torque.x, torque.y, torque.z, V(0.0), out_size(Y));
@@ -370,13 +372,13 @@ class Rows {
     double* column = columns + C::rolling * block_rows;
     const M rolls = touching & (V(0.0) < terms.rolling_friction);
     if constexpr (Y.dim == 2) {
-      return -spring<V>(column, transported<V>(column, at, columns), normal, ahead, rolls, stiffness_before,
+      return -spring<V>(column, transported<V>(column, at), normal, ahead, rolls, stiffness_before,
                         Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
                         at.relative, cross, sums_.rolling, lane, block.sliding[1]);
     } else {
       const V about = dot(at.relative, at.normal);
       const Space<V> rolling = spring<Space<V>>(
-          column, transported<Space<V>>(column, at, columns), normal, ahead, rolls, stiffness_before,
+          column, transported<Space<V>>(column, at), normal, ahead, rolls, stiffness_before,
           Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
           nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane, block.sliding[1]);
       double* turns = columns + C::pivoting * block_rows;

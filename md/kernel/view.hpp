@@ -51,13 +51,15 @@ struct alignas(64) RowConstants {
 /// Where each quantity that a row remembers lies among the columns of its block.
 template <Layout Y>
 struct RowColumns {
-  static constexpr int vector = Y.dim == 3 ? 3 : 1;                // components of a spring
-  static constexpr int spring = 0;                                 ///< stored elongation, see laws/spring.hpp
-  static constexpr int normal = spring + vector;                   ///< 3D: n when the springs were last updated
-  static constexpr int stiffness = normal + (Y.dim == 3 ? 3 : 0);  ///< K_N at the last step; hertz only
-  static constexpr int rolling = stiffness + 1;                    ///< stored rotation of the rolling spring
-  static constexpr int pivoting = rolling + vector;                ///< 3D: the same about the normal
-  static constexpr int count = !Y.friction ? 0 : !Y.rolling ? rolling : pivoting + (Y.dim == 3 ? 1 : 0);
+  static constexpr int vector = Y.dim == 3 ? 3 : 1;  // components of a spring
+  static constexpr int spring = 0;                   ///< stored elongation, see laws/spring.hpp
+  static constexpr int rolling = spring + vector;    ///< stored rotation of the rolling spring
+  static constexpr int pivoting = rolling + vector;  ///< 3D: the same about the normal
+  static constexpr int stiffness =                   ///< K_N at the last step; only where it varies (hertz)
+      !Y.friction  ? 0
+      : !Y.rolling ? rolling
+                   : pivoting + (Y.dim == 3 ? 1 : 0);
+  static constexpr int count(bool varying) { return stiffness + (Y.friction && varying ? 1 : 0); }
 };
 
 /// Rows that only fill a block refer to the two records after the grains, `filler_distance` apart: never in contact.
@@ -88,6 +90,7 @@ struct PassView {
   const RowConstants* constants;
   std::size_t constants_stride;  ///< 1, or 0 where one block of constants serves all
   double* columns;
+  std::size_t column_count;  ///< of a block
   double* out;
   double gradient[9];  ///< L, row by row
   bool deforming;      ///< L is not zero

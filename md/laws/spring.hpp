@@ -143,31 +143,23 @@ GALET_INLINE void adapt_spring(V stiffness_before, V stiffness, V step, Value& s
   if (K.account) losses.unloading += V(0.5) * (stiffness_before * squared(before) - stiffness * squared(stored)) / step;
 }
 
-/// The smallest rotation that takes the unit normal `before` to `after`, applied to a vector of the tangent plane. (The
-/// result has no part along `after`, whatever rounding has put into `value` along `before`.)
-///   value - (after.value) / (1 + before.after) (before + after),  1 / (1 + c) in powers of 1 - c
-/// For turns of up to 0.05 to rounding, beyond with an error of 2e-3 turn^8.
+/// A vector of the tangent plane of a pair, brought from the last step's frame to the present one (3D). With the
+/// normal:
+///   p = q - (q.n) (n - dt/2 dn/dt)      dn/dt = u_T / |b|, u_T the tangential velocity of the centres
+/// which is the smallest rotation from the last normal to the present one, with the last one from the present motion:
+/// nothing needs to be remembered for it. Then about the normal by the angle psi with the mean spin of the two grains,
+///   tan(psi/2) = dt/4 (w_i + w_j).n
+/// A turn of the normal by theta in a step shortens the vector by theta^4 / 24 (4e-18 for 1e-4, as in slow flows), the
+/// turn about it leaves its norm to rounding and errs by psi^3 / 12 in the angle. `half`: dt/2; `together`: w_i + w_j.
 template <class V>
-GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& before, const Space<V>& after) {
-  const V small = nmadd(V(0.5), dot(before, after), V(0.5));
-  // (1 + s + s^2 + s^3) / 2
-  const V factor = madd(V(0.5), small, V(0.5)) * madd(small, small, V(1.0));
-  return nmadd(dot(after, value) * factor, before + after, value);
-}
-
-/// Turns a vector of the tangent plane of the unit normal about it, as the pair turns by the rotation vector
-/// `scale` * `spin` (mean spin of the two grains times dt): by the angle psi with t = tan(psi/2) =
-/// tan(|turn|/2) turn.n/|turn|. Followed by `carried` to the normal that the turn makes of this one it is the turn
-/// itself: a pair that turns rigidly keeps its tangential force, norm and direction in its own frame, to rounding (for
-/// |turn| < 0.02; beyond that the error is 4e-4 |turn|^7).
-template <class V>
-GALET_INLINE Space<V> twisted(const Space<V>& value, const Space<V>& normal, const Space<V>& spin, V scale) {
-  const V turned = scale * scale * squared(spin);
-  const V tangent = madd(V(1.0 / 12) * turned, madd(V(0.1), turned, V(1.0)), V(1.0));
-  const V t = V(0.5) * scale * dot(spin, normal) * tangent, t2 = t * t;
+GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& normal, V inverse_distance, const Space<V>& across,
+                              const Space<V>& together, V half) {
+  const V along = dot(value, normal);
+  const Space<V> flat = madd(along * half * inverse_distance, across, nmadd(along, normal, value));
+  const V t = V(0.5) * half * dot(together, normal), t2 = t * t;
   // sin(psi) = 2 t / (1 + t^2), 1 - cos(psi) = t sin(psi)
   const V sine = V(2.0) * t * (nmadd(t, t, V(1.0)) * madd(t2, t2, V(1.0)));
-  return madd(sine, nmadd(t, value, cross(normal, value)), value);
+  return madd(sine, nmadd(t, flat, cross(normal, flat)), flat);
 }
 
 }  // namespace galet::md
