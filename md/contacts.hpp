@@ -101,9 +101,9 @@ class Contacts {
   /// F on j; zero when apart.
   Vec<D> force(std::size_t row) const { return out_vector(row, 0); }
   /// |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist.
-  Spin<D> twist(std::size_t row) const requires(Y.friction) { return out_spin(row, D == 2 ? 2 : 4); }
+  Spin<D> twist(std::size_t row) const requires(Y.friction) { return out_spin(row, twist_place(Y)); }
   /// Rolling and pivoting torque on j.
-  Spin<D> torque(std::size_t row) const requires(Y.rolling) { return out_spin(row, D == 2 ? 3 : 8); }
+  Spin<D> torque(std::size_t row) const requires(Y.rolling) { return out_spin(row, torque_place(Y)); }
   /// Stored elongation of the tangential spring.
   Spin<D> spring(std::size_t row) const requires(Y.friction) {
     if constexpr (D == 2)
@@ -182,7 +182,7 @@ class Contacts {
     const double* source = old.out() + from * out_size(Y);
     double* target = out() + row * out_size(Y);
     for (int k = 0; k < out_size(Y); ++k) {
-      const bool twist = Y.friction && (D == 2 ? k == 2 : k >= 4 && k < 8);
+      const bool twist = Y.friction && k >= twist_place(Y) && k < torque_place(Y);
       target[k] = (twist ? 1 : sign) * source[k];
     }
   }
@@ -213,12 +213,12 @@ class Contacts {
     };
     result("contacts.force", 0, D);
     if constexpr (Y.friction) {
-      result("contacts.twist", D == 2 ? 2 : 4, D == 2 ? 1 : 3);
+      result("contacts.twist", twist_place(Y), D == 2 ? 1 : 3);
       memory("contacts.spring", C::spring, C::rolling);
       if (varying_stiffness) memory("contacts.stiffness", C::stiffness, C::stiffness + 1);
     }
     if constexpr (Y.rolling) {
-      result("contacts.torque", D == 2 ? 3 : 8, D == 2 ? 1 : 3);
+      result("contacts.torque", torque_place(Y), D == 2 ? 1 : 3);
       memory("contacts.rolling", C::rolling, C::pivoting);
       if constexpr (D == 3) memory("contacts.pivoting", C::pivoting, C::stiffness);
     }

@@ -1,5 +1,5 @@
-// The skins of the neighbour lists, tuned by the run itself: a wide inner skin lists pairs that never touch, a narrow one
-// has the list taken anew from the outer one too often, whose skin decides how often pairs are searched for. With e
+// The skins of the neighbour lists, tuned by the run itself: a wide inner skin lists pairs that never touch, a narrow
+// one has the list taken anew from the outer one too often, whose skin decides how often pairs are searched for. With e
 // pairs per grain and unit skin that don't touch, a displacement v per step, P pairs in the outer list and costs in
 // evaluations of a pair, the cost per grain and step is
 //   e s + c P v / s + C v / (S - s)

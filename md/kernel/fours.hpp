@@ -17,6 +17,7 @@ struct Four<1> {
   GALET_INLINE static Four zero() { return {{0, 0, 0, 0}}; }
   GALET_INLINE static Four all(double a) { return {{a, a, a, a}}; }
   GALET_INLINE static Four load(const double* from) { return {{from[0], from[1], from[2], from[3]}}; }
+  GALET_INLINE static Four load_any(const double* from) { return load(from); }
   GALET_INLINE static Four load_pair(const double* from) { return {{from[0], from[1], 0, 0}}; }
   GALET_INLINE void store(double* to) const {
     for (int k = 0; k < 4; ++k) to[k] = v[k];
@@ -65,6 +66,8 @@ struct Four<4> {
   GALET_INLINE static Four zero() { return {_mm256_setzero_pd()}; }
   GALET_INLINE static Four all(double a) { return {_mm256_set1_pd(a)}; }
   GALET_INLINE static Four load(const double* from) { return {_mm256_load_pd(from)}; }
+  /// From anywhere.
+  GALET_INLINE static Four load_any(const double* from) { return {_mm256_loadu_pd(from)}; }
   GALET_INLINE static Four load_pair(const double* from) { return {_mm256_zextpd128_pd256(_mm_load_pd(from))}; }
   GALET_INLINE void store(double* to) const { _mm256_store_pd(to, v); }
 };

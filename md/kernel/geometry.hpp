@@ -26,8 +26,8 @@ struct Place {
   typename LaneTypes<Y, V>::Vector normal;  ///< n, from i to j
   V distance;                               ///< |b|
   V inverse_distance;
-  Plane2<V> centres;                        ///< 2D: relative velocity of the centres
-  V together_x;                             ///< 3D: first component of w_i + w_j
+  Plane2<V> centres;  ///< 2D: relative velocity of the centres
+  V together_x;       ///< 3D: first component of w_i + w_j
 };
 
 /// How W contacts move. Spins that the layout has no use for are zero.

@@ -50,10 +50,10 @@ class Grains {
     now.velocity = madd(kick_, now.acceleration, velocity);
     if constexpr (Y.friction && Y.dim == 3) {
       F second, first;
-      add_rows(grain, 1, second, first);
+      add_rows(grain, twist_place(Y), second, first);
       now.turning = (second + first) * F::all(state[S::twist_factor]);
       if constexpr (Y.rolling) {
-        add_rows(grain, 2, second, first);
+        add_rows(grain, torque_place(Y), second, first);
         now.turning = madd(second - first, F::all(state[S::inverse_inertia]), now.turning);
       }
       now.spin = madd(kick_, now.turning, F::load(state + S::spin));
@@ -137,13 +137,14 @@ class Grains {
     return mid * mid;
   }
 
-  /// Sum of one group of the rows of a grain: as second member, and as first. Four of each come in fixed slots.
-  GALET_INLINE void add_rows(std::size_t grain, int group, F& second, F& first) const {
+  /// Sum of four components of the rows of a grain: as second member, and as first. Four of each come in fixed slots.
+  /// (In 3D the fourth belongs to something else: of no use.)
+  GALET_INLINE void add_rows(std::size_t grain, int component, F& second, F& first) const {
     const int* slot = view_.slots + slots_per_grain * grain;
-    const double* out = view_.out + 4 * group;
+    const double* out = view_.out + component;
     const auto row = [&](int k) {
       const double* from = out + static_cast<std::size_t>(static_cast<unsigned>(k)) * out_size(Y);
-      return out_size(Y) == 2 ? F::load_pair(from) : F::load(from);
+      return out_size(Y) == 2 ? F::load_pair(from) : F::load_any(from);
     };
     second = (row(slot[0]) + row(slot[1])) + (row(slot[2]) + row(slot[3]));
     first = (row(slot[4]) + row(slot[5])) + (row(slot[6]) + row(slot[7]));

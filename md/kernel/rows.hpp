@@ -18,37 +18,43 @@ GALET_INLINE void add_product(double* sum, int lane, Lanes<W> a, Lanes<W> b) {
   madd(a, b, Lanes<W>::load(sum + lane)).store(sum + lane);
 }
 
-GALET_INLINE void write_out(double* out, const Plane2<Lanes<1>>& force) { force.x.store(out), force.y.store(out + 1); }
-GALET_INLINE void write_out(double* out, Lanes<1> a, Lanes<1> b, Lanes<1> c, Lanes<1> d, int) {
+/// Four components of W rows, `size` doubles apart.
+GALET_INLINE void write_four(double* out, int, Lanes<1> a, Lanes<1> b, Lanes<1> c, Lanes<1> d) {
   a.store(out), b.store(out + 1), c.store(out + 2), d.store(out + 3);
 }
+/// Two of them.
+GALET_INLINE void write_two(double* out, int, Lanes<1> a, Lanes<1> b) { a.store(out), b.store(out + 1); }
 #ifdef __AVX2__
-GALET_INLINE void write_out(double* out, const Plane2<Lanes<4>>& force) {
-  const __m256d low = _mm256_unpacklo_pd(force.x.v, force.y.v), high = _mm256_unpackhi_pd(force.x.v, force.y.v);
-  _mm256_store_pd(out, _mm256_permute2f128_pd(low, high, 0x20));
-  _mm256_store_pd(out + 4, _mm256_permute2f128_pd(low, high, 0x31));
-}
-/// Four components of four rows, `size` doubles apart.
-GALET_INLINE void write_out(double* out, Lanes<4> a, Lanes<4> b, Lanes<4> c, Lanes<4> d, int size) {
+GALET_INLINE void write_four(double* out, int size, Lanes<4> a, Lanes<4> b, Lanes<4> c, Lanes<4> d) {
   transpose(a, b, c, d);
-  a.store(out), b.store(out + size), c.store(out + 2 * size), d.store(out + 3 * size);
+  _mm256_storeu_pd(out, a.v), _mm256_storeu_pd(out + size, b.v);
+  _mm256_storeu_pd(out + 2 * size, c.v), _mm256_storeu_pd(out + 3 * size, d.v);
+}
+GALET_INLINE void write_two(double* out, int size, Lanes<4> a, Lanes<4> b) {
+  const __m256d even = _mm256_unpacklo_pd(a.v, b.v), odd = _mm256_unpackhi_pd(a.v, b.v);
+  _mm_store_pd(out, _mm256_castpd256_pd128(even)), _mm_store_pd(out + size, _mm256_castpd256_pd128(odd));
+  _mm_store_pd(out + 2 * size, _mm256_extractf128_pd(even, 1));
+  _mm_store_pd(out + 3 * size, _mm256_extractf128_pd(odd, 1));
 }
 #endif
 #ifdef __AVX512F__
-GALET_INLINE void write_out(double* out, const Plane2<Lanes<8>>& force) {
-  const __m512i first = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
-                last = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
-  _mm512_store_pd(out, _mm512_permutex2var_pd(force.x.v, first, force.y.v));
-  _mm512_store_pd(out + 8, _mm512_permutex2var_pd(force.x.v, last, force.y.v));
-}
-/// Four components of eight rows, `size` doubles apart.
-GALET_INLINE void write_out(double* out, Lanes<8> a, Lanes<8> b, Lanes<8> c, Lanes<8> d, int size) {
+GALET_INLINE void write_four(double* out, int size, Lanes<8> a, Lanes<8> b, Lanes<8> c, Lanes<8> d) {
   rows_of_eight(a, b, c, d);
   const Lanes<8> registers[4] = {a, b, c, d};
   for (int k = 0; k < 4; ++k) {
-    _mm256_store_pd(out + row_in_half(k, 0) * size, _mm512_castpd512_pd256(registers[k].v));
-    _mm256_store_pd(out + row_in_half(k, 1) * size, _mm512_extractf64x4_pd(registers[k].v, 1));
+    _mm256_storeu_pd(out + row_in_half(k, 0) * size, _mm512_castpd512_pd256(registers[k].v));
+    _mm256_storeu_pd(out + row_in_half(k, 1) * size, _mm512_extractf64x4_pd(registers[k].v, 1));
   }
+}
+GALET_INLINE void write_two(double* out, int size, Lanes<8> a, Lanes<8> b) {
+  const __m512d even = _mm512_unpacklo_pd(a.v, b.v), odd = _mm512_unpackhi_pd(a.v, b.v);
+  const auto write = [&](double* to, __m256d first, __m256d last) {
+    _mm_store_pd(to, _mm256_castpd256_pd128(first)), _mm_store_pd(to + 2 * size, _mm256_extractf128_pd(first, 1));
+    _mm_store_pd(to + 4 * size, _mm256_castpd256_pd128(last)),
+        _mm_store_pd(to + 6 * size, _mm256_extractf128_pd(last, 1));
+  };
+  write(out, _mm512_castpd512_pd256(even), _mm512_extractf64x4_pd(even, 1));
+  write(out + size, _mm512_castpd512_pd256(odd), _mm512_extractf64x4_pd(odd, 1));
 }
 #endif
 
@@ -168,9 +174,9 @@ class Rows {
       slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, force, torque, cross, block, out);
       if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
     } else if constexpr (Y.dim == 2) {
-      write_out(out, force);
+      write_two(out, out_size(Y), force.x, force.y);
     } else {
-      write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
+      write_four(out, out_size(Y), force.x, force.y, force.z, V(0.0));
     }
     if (view_.virial) add_virial(force, at.distance * at.normal, lane);
   }
@@ -221,8 +227,8 @@ class Rows {
       const V most = terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
       result.sliding = min(max(most, -most) / max(length, V(1e-300)), V(1.0)) * tangential;
     }
-    if constexpr (Y.rolling && Y.dim == 2) result.torque = last(3);
-    if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(8), last(9), last(10)};
+    if constexpr (Y.rolling && Y.dim == 2) result.torque = last(torque_place(Y));
+    if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(6), last(7), last(8)};
     return result;
   }
 
@@ -352,16 +358,20 @@ class Rows {
                                 sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
-      write_out(out, force.x, force.y, at.stretch * tangential, torque, out_size(Y));
+      write_four(out, out_size(Y), force.x, force.y, at.stretch * tangential, torque);
     } else {
       Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, sliding,
                                             at.rate, cross, sums_.sliding, lane, block.sliding[0]);
       if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
       const Space<V> twist = galet::md::cross(resisting, at.stretch * at.normal);
-      write_out(out, force.x, force.y, force.z, V(0.0), out_size(Y));
-      write_out(out + 4, twist.x, twist.y, twist.z, V(0.0), out_size(Y));
-      if constexpr (Y.rolling) write_out(out + 8, torque.x, torque.y, torque.z, V(0.0), out_size(Y));
+      write_four(out, out_size(Y), force.x, force.y, force.z, twist.x);
+      if constexpr (Y.rolling) {
+        write_four(out + 4, out_size(Y), twist.y, twist.z, torque.x, torque.y);
+        write_two(out + 8, out_size(Y), torque.z, V(0.0));
+      } else {
+        write_two(out + 4, out_size(Y), twist.y, twist.z);
+      }
     }
   }
 

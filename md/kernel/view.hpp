@@ -14,7 +14,7 @@
 //             serves all rows where the pairs are equal) and one cache line of doubles per column (RowColumns)
 //   out       per row what the contact does to its grains
 //     2D frictionless   Fx Fy                   2D   Fx Fy twist torque
-//     3D frictionless   F 0                     3D   F 0 | twist 0 (| torque 0 with rolling)
+//     3D frictionless   F 0                     3D   F twist      with rolling F twist torque 0
 //     F on j; twist = |b|/(R_i+R_j) n x F: the torque on grain k of the pair is -R_k twist; torque: rolling and
 //     pivoting torque on j
 #pragma once
@@ -37,8 +37,11 @@ constexpr int record_size(Layout y) {
 /// Doubles per row in `out`.
 constexpr int out_size(Layout y) {
   if (y.dim == 2) return y.friction ? 4 : 2;
-  return y.rolling ? 12 : y.friction ? 8 : 4;
+  return y.rolling ? 10 : y.friction ? 6 : 4;
 }
+/// Where the twist and the torque lie in it.
+constexpr int twist_place(Layout y) { return y.dim == 2 ? 2 : 3; }
+constexpr int torque_place(Layout y) { return y.dim == 2 ? 3 : 6; }
 
 /// What the laws need of the two grains of each row; does not change while the list holds.
 struct alignas(64) RowConstants {

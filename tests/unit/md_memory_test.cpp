@@ -17,7 +17,7 @@ constexpr std::size_t step_bytes_per_grain() {
 }
 template <Layout Y>
 constexpr std::size_t step_bytes_per_pair() {
-  return sizeof(md::RowBlock) / md::block_rows + sizeof(double) * (md::RowColumns<Y>::count + md::out_size(Y));
+  return sizeof(md::RowBlock) / md::block_rows + sizeof(double) * (md::RowColumns<Y>::count(false) + md::out_size(Y));
 }
 
 static_assert(step_bytes_per_grain<Layout{2, false}>() <= 164 && step_bytes_per_pair<Layout{2, false}>() <= 32);
