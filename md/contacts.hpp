@@ -10,6 +10,7 @@
 #include "common/core/large_pages.hpp"
 #include "common/core/layout.hpp"
 #include "common/core/memory_use.hpp"
+#include "common/core/parallel.hpp"
 #include "common/core/types.hpp"
 #include "common/neighbour/verlet_list.hpp"
 #include "md/kernel/view.hpp"
@@ -114,16 +115,17 @@ class Contacts {
 
   /// Takes over the rows of `old` that the rebuilt list still has. The caller fills in the constants of the rows.
   void carry(const Contacts& old, const VerletList<D>& list, int grains) {
-    clear(list, grains);
-    for (std::size_t row = 0; row < rows_; ++row) {
-      const int from = list.origin()[row];
-      // A pair apart remembers nothing.
-      if (from < 0 || !old.acts(from)) continue;
-      set_state(row, old.state(from));
-      const double sign = list.flipped(row) ? -1 : 1;
-      carry_result(old, from, row, sign);
-      if constexpr (Y.friction) carry_memory(old, from, row, sign);
-    }
+    list_rows(list, grains);
+    parallel_ranges(
+        blocks_.size(),
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t block = begin; block < end; ++block) {
+            forget(block);
+            for (std::size_t row = block * block_rows; row < std::min(rows_, (block + 1) * block_rows); ++row)
+              carry_row(old, list, row);
+          }
+        },
+        least_blocks);
   }
 
   /// Rows of each grain, see GrainView.
@@ -152,7 +154,8 @@ class Contacts {
   }
 
   void restore(const Archive& archive, const VerletList<D>& list, int grains) {
-    clear(list, grains);
+    list_rows(list, grains);
+    for (std::size_t block = 0; block < blocks_.size(); ++block) forget(block);
     const auto& states = integer_column(archive, "contacts.state");
     if (states.size() != rows_) throw InputError("column 'contacts.state' of the checkpoint has the wrong length");
     for (std::size_t row = 0; row < rows_; ++row) set_state(row, static_cast<RowState>(states[row]));
@@ -175,6 +178,18 @@ class Contacts {
       return out()[row * out_size(Y) + first];
     else
       return out_vector(row, first);
+  }
+
+  static constexpr std::size_t least_blocks = 64;  ///< fewer are not worth a thread
+
+  void carry_row(const Contacts& old, const VerletList<D>& list, std::size_t row) {
+    const int from = list.origin()[row];
+    // A pair apart remembers nothing.
+    if (from < 0 || !old.acts(from)) return;
+    set_state(row, old.state(from));
+    const double sign = list.flipped(row) ? -1 : 1;
+    carry_result(old, from, row, sign);
+    if constexpr (Y.friction) carry_memory(old, from, row, sign);
   }
 
   /// The last step's forces: what ends before the next pass needs them (laws/crossing.hpp).
@@ -231,8 +246,22 @@ class Contacts {
     if (to == RowState::attracted) block.attracted |= bit;
   }
 
-  /// All rows apart and without history. Rows that only fill the last block refer to the two records after the grains.
-  void clear(const VerletList<D>& list, int grains) {
+  /// values.resize(count) with room to spare when it must grow; what was there stays.
+  template <class Values>
+  static void resize_with_room(Values& values, std::size_t count) {
+    if (count > values.capacity()) values.reserve(count + count / 2);
+    values.resize(count);
+  }
+
+  /// The rows of a block have no history and no forces.
+  void forget(std::size_t block) {
+    std::fill_n(columns_.begin() + static_cast<std::ptrdiff_t>(block * column_count()), column_count(), Line{});
+    std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(block * out_size(Y)), out_size(Y), Line{});
+  }
+
+  /// All rows apart; their memory is the caller's to fill in. Rows that only fill the last block refer to the two
+  /// records after the grains.
+  void list_rows(const VerletList<D>& list, int grains) {
     const PairColumns<D>& pairs = list.pairs();
     if (static_cast<std::size_t>(grains) > most_grains(Y)) throw RunError("too many grains for one sample of md");
     rows_ = pairs.size();
@@ -240,8 +269,9 @@ class Contacts {
     RowBlock empty{};
     for (int k = 0; k < block_rows; ++k) empty.i[k] = record_at(grains), empty.j[k] = record_at(grains + 1);
     refill(blocks_, blocks, empty);
-    refill(columns_, std::max<std::size_t>(1, blocks * column_count()), Line{});
-    refill(out_, (blocks + 1) * out_size(Y), Line{});  // the last block's rows stay zero
+    resize_with_room(columns_, std::max<std::size_t>(1, blocks * column_count()));
+    resize_with_room(out_, (blocks + 1) * out_size(Y));
+    std::fill_n(out_.end() - out_size(Y), out_size(Y), Line{});  // rows that stay zero
     plane_rows_.clear();
     images_.reserve(128);  // more than a usual cell has: no growth in the middle of a run
     images_.assign(1, Image<D>{});
@@ -277,15 +307,19 @@ class Contacts {
     return static_cast<std::uint32_t>(grain) * static_cast<std::uint32_t>(record_size(Y) * sizeof(double));
   }
 
+  /// The general comparison is a call.
+  static bool same(const Image<D>& a, const Image<D>& b) {
+    int difference = 0;
+    for (int k = 0; k < D; ++k) difference |= a[k] ^ b[k];
+    return difference == 0;
+  }
+
   int shift_of(const Image<D>& image) {
-    if (image == images_[0]) return 0;
     // There are few: the neighbours of the cell, as a rule.
-    auto found = std::find(images_.begin() + 1, images_.end(), image);
-    if (found == images_.end()) {
-      images_.push_back(image);
-      found = images_.end() - 1;
-    }
-    return static_cast<int>(found - images_.begin());
+    std::size_t k = 0;
+    while (k < images_.size() && !same(images_[k], image)) ++k;
+    if (k == images_.size()) images_.push_back(image);
+    return static_cast<int>(k);
   }
 
   const RowConstants& constants_of(std::size_t row) const { return constants_[equal_pairs_ ? 0 : row / block_rows]; }
