@@ -22,6 +22,7 @@
 #include "md/move_bound.hpp"
 #include "md/shown.hpp"
 #include "md/skin.hpp"
+#include "md/step_guard.hpp"
 
 namespace galet::md {
 
@@ -41,12 +42,11 @@ class SoftEngine final : public Engine<Y.dim> {
         kind_(kind_of(derived.laws.pairs[0])),
         skin_(derived.grains.mean_diameter),
         dt_(*derived.md_dt),
+        guard_(scene, derived, kind_.hertz),
         pass_(Kernel{scene.md.energy_budget || !plain(derived.laws.pairs), kind_.hertz, scene.md.energy_budget}),
         grain_pass_(pass_.instructions()) {
     for (const PairLaw& law : laws_) terms_.push_back(terms_of<D>(law));
     contacts_.varying_stiffness = carried_.varying_stiffness = kind_.hertz;
-    if (derived.md_dt_stable && !scene.md.allow_unsafe_dt && kind_.hertz)
-      stiffest_ = derived.md_stiffest * std::pow(*derived.md_dt_stable / dt_, 2);
     bodies_.start(scene, derived, sample);
     if (relaxers_.on() && !bodies_.rigid.none())
       throw InputError("md.drag and md.acceleration_damping are refused with rigid bodies: they act on grains alone");
@@ -67,6 +67,7 @@ class SoftEngine final : public Engine<Y.dim> {
       rebuild_list();
     }
     evaluate(0);
+    guard_.neighbours(contacts_, list_, bodies_, order_.number(), time());
     states_.forget_before(bodies_.grains());
     body_pass_.forget_before();
     mode_before_ = mode_acceleration_;
@@ -286,24 +287,10 @@ class SoftEngine final : public Engine<Y.dim> {
     for (int i = 0; i < bodies_.grains(); ++i) bodies_.position[i] = seen_.grains.position(i);
   }
 
-  /// Hertz contacts stiffen as they are pressed: beyond what the time step was derived for the run stops.
   void check_stiffness() {
-    if (!kind_.hertz || !(stiffest_ > 0)) return;
+    if (!guard_.watches_stiffness()) return;
     fetch_positions();
-    for (std::size_t row = 0; row < list_.size(); ++row) {
-      if (!contacts_.touches(row)) continue;
-      const double deflection = -frame_of(row).gap;
-      const double stiffness = tangent_stiffness(NormalLaw::hertz, contacts_.coefficient(row), deflection);
-      if (!(stiffness > stiffest_)) continue;
-      const PairColumns<D>& pairs = list_.pairs();
-      throw RunError(
-          fmt::format("at time {:.6g} the contact of grain {} and {} {} is deflected by {:.3g}: so stiff a contact "
-                      "needs md.dt <= {:.4g}, "
-                      "it is {:.4g}",
-                      time(), order_.number()[pairs.i[row]], pairs.j[row] < bodies_.grains() ? "grain" : "plane",
-                      pairs.j[row] < bodies_.grains() ? order_.number()[pairs.j[row]] : pairs.j[row] - bodies_.grains(),
-                      deflection, dt_ * std::sqrt(stiffest_ / stiffness), dt_));
-    }
+    guard_.stiffness(contacts_, list_, order_.number(), time(), [this](std::size_t row) { return frame_of(row); });
   }
 
   /// Whether the sum of m (a + L v - gravity) and the forces on rigid bodies is that of the forces from planes (action
@@ -373,6 +360,7 @@ class SoftEngine final : public Engine<Y.dim> {
     const bool narrowed =
         list_.narrow(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, group, order_.number());
     if (!narrowed && order_.decayed()) rearrange(order_.sorted(bodies_.cell, bodies_.position));
+    if (!narrowed) guard_.neighbours(contacts_, list_, bodies_, order_.number(), time());
     std::swap(contacts_, carried_);
     if (!narrowed) {
       list_.build(bodies_.position, bodies_.radius, bodies_.cell, bodies_.planes, group, order_.number());
@@ -465,9 +453,9 @@ class SoftEngine final : public Engine<Y.dim> {
   bool account_;
   bool equal_pairs_ = false;
   LawKind kind_;
-  double stiffest_ = 0;  ///< hertz: K_N that the time step allows; 0: any
   Skin skin_;
   double dt_;
+  StepGuard<Y> guard_;
   long steps_ = 0;
   long list_age_ = 0;  ///< steps since the neighbour list was built
   MoveBound list_bound_;

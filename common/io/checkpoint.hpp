@@ -9,7 +9,7 @@
 namespace galet {
 
 /// Version of the file format; a reader refuses versions that it does not know.
-inline constexpr int checkpoint_version = 3;
+inline constexpr int checkpoint_version = 4;
 
 void write_checkpoint(const std::string& path, const Archive& archive);
 

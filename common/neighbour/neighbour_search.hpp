@@ -37,8 +37,8 @@ struct PairColumns {
   std::size_t size() const { return i.size(); }
 };
 
-/// Grains and planes, and whether two of them are near. Throws RunError, naming the grains, when a pair overlaps by more
-/// than half of the smaller radius or a grain is behind a plane.
+/// Grains and planes, and whether two of them are near. Throws RunError, naming the grains, when a pair overlaps by
+/// more than half of the smaller radius or a grain is behind a plane.
 template <int D>
 struct PairSight {
   std::span<const Vec<D>> position;

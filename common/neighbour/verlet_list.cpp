@@ -111,8 +111,8 @@ void VerletList<D>::take_near(std::span<const Vec<D>> position, std::span<const 
 
 /// The list from the outer one; row_of_outer_ says where each pair stands in it.
 template <int D>
-void VerletList<D>::take_all_near(std::span<const Vec<D>> position, std::span<const double> radius,
-                                  const Cell<D>& cell, std::span<const Plane<D>> planes, std::span<const int> number) {
+void VerletList<D>::take_all_near(std::span<const Vec<D>> position, std::span<const double> radius, const Cell<D>& cell,
+                                  std::span<const Plane<D>> planes, std::span<const int> number) {
   // Each pair keeps its former row until it is looked at: origin_ is filled in on the way.
   const std::size_t outer = outer_.size();
   for (auto* column : {&pairs_.i, &pairs_.j, &origin_})

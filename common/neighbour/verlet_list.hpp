@@ -40,8 +40,8 @@ namespace galet {
 template <int D>
 class VerletList {
  public:
-  /// `range`: largest gap at which a pair interacts (0 for contact laws without range). `skin`: see above. `outer`: skin
-  /// of the outer list that the next build() makes; 0: none.
+  /// `range`: largest gap at which a pair interacts (0 for contact laws without range). `skin`: see above. `outer`:
+  /// skin of the outer list that the next build() makes; 0: none.
   void configure(double range, double skin, double outer = 0);
 
   /// Whether a pair that is not listed may be within range (after a further displacement of `reserve` in all).
@@ -146,7 +146,7 @@ class VerletList {
 
   double wanted_outer_skin_ = 0, outer_skin_ = 0;  ///< to come; of the present outer list, 0: there is none
   Reference outer_reference_;
-  bool outer_known_ = false;       ///< whether outer_ is filled in; it follows from the reference
+  bool outer_known_ = false;  ///< whether outer_ is filled in; it follows from the reference
   PairColumns<D> outer_;
   std::vector<int> row_of_outer_;  ///< of each outer pair in the list, or -1
 

@@ -47,6 +47,7 @@ struct Derived {
   std::optional<double> md_dt;              ///< time step of md
   std::optional<double> md_dt_stable;       ///< its stability bound
   double md_stiffest = 0;                   ///< K_N that the bound allows for
+  double md_most_neighbours = 0;            ///< of the lightest grain, for which md_dt is stable
   double cd_dt = 0;
   std::string cd_dt_from;  ///< where it comes from, in words
   double duration = 0;     ///< simulated time of the run

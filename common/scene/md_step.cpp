@@ -54,8 +54,11 @@ double stiffness_at(const Derived& derived, const PairLaw& law, const Severity& 
   return stiffness;
 }
 
-/// Stability bound of the step. Stiffest modes of a packing whose lightest grain has z neighbours (6 disks, 12 spheres,
-/// as in crystals; disordered packings stay below), in units of K_N / m_least:
+/// Neighbours in crystals; packings stay below, as long as they are not pressed together by a tenth of d.
+double crystal_neighbours(int dim) { return dim == 2 ? 6 : 12; }
+
+/// Stability bound of the step. Stiffest modes of a packing whose lightest grain has z neighbours, in units of
+/// K_N / m_least:
 ///   translations            z
 ///   all spins alike         2 z (K_T/K_N) (m R^2/I), in 3D 2/3 of it: every contact slides by both spins
 ///   spins against another   2 z K_R / (K_N I/m)
@@ -64,8 +67,7 @@ double stiffness_at(const Derived& derived, const PairLaw& law, const Severity& 
 ///   omega dt <= 1 / (0.5 + 2.75 zeta), with friction also <= 0.94
 /// (largest eigenvalue of one step of an oscillator whose spring follows the position, or the velocities that contacts
 /// see, or both: a fit below the scheme's own limit for every zeta <= 3).
-double stable_dt(int dim, const PairLaw& law, double stiffness, const GrainFacts& grains) {
-  const double neighbours = dim == 2 ? 6 : 12;
+double stable_dt(int dim, const PairLaw& law, double stiffness, const GrainFacts& grains, double neighbours) {
   const double gyration = dim == 2 ? inertia_ratio<2> : inertia_ratio<3>;  // I / (m R^2)
   const double mass = grains.least_mass;
   const double spinning = 2 / gyration * (dim == 2 ? 1 : 2.0 / 3);
@@ -80,6 +82,16 @@ double stable_dt(int dim, const PairLaw& law, double stiffness, const GrainFacts
   const double zeta = damping * 2 * std::sqrt(mass / 2 * stiffness) * neighbours / mass / (2 * omega);
   const double limit = 1 / (0.5 + 2.75 * zeta);
   return (law.friction > 0 ? std::min(0.94, limit) : limit) / omega;
+}
+
+/// The neighbours that the lightest grain may have at this step: stable_dt falls with their number.
+double neighbours_allowed(int dim, const PairLaw& law, double stiffness, const GrainFacts& grains, double dt) {
+  double least = 0, most = 1e6;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (least + most);
+    (stable_dt(dim, law, stiffness, grains, middle) >= dt ? least : most) = middle;
+  }
+  return most;
 }
 
 }  // namespace
@@ -98,7 +110,7 @@ void derive_md_step(const Scene& scene, Derived& derived) {
     if (most <= 0) return;
     derived.md_stiffest = std::max(derived.md_stiffest, most);
     derived.contact_stiffness = std::max(derived.contact_stiffness.value_or(0), typical);
-    bound = std::min(bound, stable_dt(scene.dimension, law, most, derived.grains));
+    bound = std::min(bound, stable_dt(scene.dimension, law, most, derived.grains, crystal_neighbours(scene.dimension)));
     // With strong damping the contact lasts long for reasons that a step must not follow: the undamped one bounds.
     for (const double zeta : {0.0, law.damping_ratio})
       shortest = std::min(shortest, collision_duration(zeta, law.convention, least, typical > 0 ? typical : most));
@@ -108,6 +120,11 @@ void derive_md_step(const Scene& scene, Derived& derived) {
   derived.collision_time = collision_duration(base.damping_ratio, base.convention, mean, typical);
   derived.md_dt_stable = bound;
   if (!derived.md_dt) derived.md_dt = std::min(shortest / scene.md.steps_per_contact, bound);
+  derived.md_most_neighbours = std::numeric_limits<double>::infinity();
+  for (const PairLaw& law : derived.laws.pairs)
+    derived.md_most_neighbours =
+        std::min(derived.md_most_neighbours,
+                 neighbours_allowed(scene.dimension, law, derived.md_stiffest, derived.grains, *derived.md_dt));
 }
 
 }  // namespace galet

@@ -48,11 +48,13 @@ std::vector<Derived> derive_stages(const Scene& scene, const GrainFacts& facts) 
     if (shared.md_dt_stable)
       shared.md_dt_stable = std::min(*shared.md_dt_stable, one.md_dt_stable.value_or(*shared.md_dt_stable));
     shared.md_stiffest = std::max(shared.md_stiffest, one.md_stiffest);
+    shared.md_most_neighbours = std::min(shared.md_most_neighbours, one.md_most_neighbours);
   }
   for (Derived& one : all) {
     one.layout = shared.layout;
     one.cd_dt = shared.cd_dt, one.cd_dt_from = shared.cd_dt_from;
     one.md_dt = shared.md_dt, one.md_dt_stable = shared.md_dt_stable, one.md_stiffest = shared.md_stiffest;
+    one.md_most_neighbours = shared.md_most_neighbours;
   }
   return all;
 }

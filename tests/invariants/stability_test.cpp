@@ -77,6 +77,41 @@ TEST(Stability, StuckSpinsDoNotGainEnergy) {
   EXPECT_LT(growth<3>(stiff_laws()[2], 0.33, 20000), 2);
 }
 
+/// Grains pressed together so far that the next nearest touch too: a body-centred crystal whose edge is shorter than a
+/// diameter has 8 and 6 neighbours.
+Sample<3> pressed_sample(int cells, double edge) {
+  Sample<3> sample;
+  sample.cell.box = cells * edge * Mat<3>::Identity();
+  sample.cell.periodic.fill(true);
+  sample.resize(2 * cells * cells * cells);
+  for (int k = 0; k < sample.count(); ++k) {
+    const int cell = k / 2;
+    const Vec<3> corner(cell % cells, cell / cells % cells, cell / cells / cells);
+    sample.position[k] = edge * (corner + Vec<3>::Constant(k % 2 ? 0.75 : 0.25));
+  }
+  return sample;
+}
+
+TEST(Stability, MoreNeighboursThanTheStepAllowsAreRefused) {
+  Scene scene = periodic_scene(3, 0.3, 0.5, 1e4);
+  const Sample<3> twelve = crystal_sample<3>(3, 0.98), fourteen = pressed_sample(3, 0.99);
+  const double bound = *derive_for<3>(scene, twelve).md_dt_stable;
+  // A step at the bound is good for the 12 neighbours that it was derived for, and for no more; with less damping in it
+  // than the friction allows the bound falls as 1 / sqrt(z), sqrt(12/14) = 0.926.
+  scene.md.dt = 0.999 * bound;
+  EXPECT_NO_THROW(make_engine<3>(EngineKind::md, scene, twelve));
+  try {
+    make_engine<3>(EngineKind::md, scene, fourteen);
+    ADD_FAILURE() << "14 neighbours were accepted";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("touches 14 others"), std::string::npos) << error.what();
+  }
+  scene.md.dt = 0.9 * bound;
+  EXPECT_NO_THROW(make_engine<3>(EngineKind::md, scene, fourteen));
+  scene.md.dt = 0.999 * bound, scene.md.allow_unsafe_dt = true;
+  EXPECT_NO_THROW(make_engine<3>(EngineKind::md, scene, fourteen));
+}
+
 TEST(Stability, BoundHoldsForEveryTermDisks) { check<2>(); }
 TEST(Stability, BoundHoldsForEveryTermSpheres) { check<3>(); }
 

@@ -1,4 +1,6 @@
 // The Verlet list against a search over all pairs and images.
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "common/core/error.hpp"
@@ -200,6 +202,84 @@ void check_origin() {
 TEST(VerletList, CarriesRowsThroughWrappingAndRemap) {
   check_origin<2>();
   check_origin<3>();
+}
+
+/// Each row of the list leads back to the same pair in `before`, or was not there.
+template <int D>
+void expect_origins(const VerletList<D>& list, const PairColumns<D>& before) {
+  std::map<Pair<D>, int> rows;
+  for (std::size_t row = 0; row < before.size(); ++row)
+    rows[{before.i[row], before.j[row], before.image[row]}] = static_cast<int>(row);
+  for (std::size_t row = 0; row < list.size(); ++row) {
+    const auto found = rows.find({list.pairs().i[row], list.pairs().j[row], list.pairs().image[row]});
+    EXPECT_EQ(list.origin()[row], found == rows.end() ? -1 : found->second);
+    EXPECT_FALSE(list.flipped(row));
+  }
+}
+
+/// Grains that wander in a cell that deforms, between planes where it is open: lists taken from the outer one are those
+/// of a search, and a list that was saved and restored goes on alike.
+template <int D>
+void check_narrowing(bool planes) {
+  SCOPED_TRACE(planes ? "planes" : "cell");
+  Sample<D> sample = random_sample<D>(D == 2 ? 16 : 50, tilted_box<D>(D == 2 ? 2.4 : 2.0, 0.2), 0.4, 9);
+  if (planes) {
+    sample.cell.periodic.fill(false);
+    sample.planes = {{Vec<D>::Constant(-3.3), up<D>(), Vec<D>::Zero()}};
+  }
+  Mat<D> step = Mat<D>::Identity();
+  if (!planes) step(0, 1) = 2e-3, step(1, 1) = 1 - 1e-3;
+  const double range = 0.02;
+  VerletList<D> list;
+  list.configure(range, 0.03, 0.2);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  expect_fresh<D>(list, sample, range);
+  for (int k = 0; k < 200; ++k) {
+    sample.cell.box = step * sample.cell.box;
+    for (int i = 0; i < sample.count(); ++i) {
+      RandomStream random(13 + k, i);
+      sample.position[i] = step * sample.position[i];
+      for (int a = 0; a < D; ++a) sample.position[i][a] += 1e-3 * random.normal();
+    }
+    if (!list.expired(sample.position, sample.cell, sample.planes)) continue;
+    const PairColumns<D> before = list.pairs();
+    Archive archive;
+    list.save(archive);
+    VerletList<D> other;
+    other.restore(archive, sample.count());
+    const double skin = 0.02 + 0.0005 * k;  // an inner skin that changes leaves the outer list as it is
+    for (VerletList<D>* each : {&list, &other}) {
+      each->configure(range, skin, 0.2);
+      if (each->narrow(sample.position, sample.radius, sample.cell, sample.planes)) {
+        expect_fresh<D>(*each, sample, range);
+        expect_rows<D>(*each, sample.count());
+        expect_origins<D>(*each, before);
+      }
+    }
+    EXPECT_EQ(list.narrowings(), other.narrowings());
+    EXPECT_EQ(listed<D>(list), listed<D>(other));
+    if (list.expired(sample.position, sample.cell, sample.planes))
+      list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  }
+  EXPECT_GT(list.narrowings(), 3);
+  EXPECT_GT(list.builds(), 1);
+}
+
+TEST(VerletList, TakenFromTheOuterListAreThoseOfASearch) {
+  for (const bool planes : {false, true}) {
+    check_narrowing<2>(planes);
+    check_narrowing<3>(planes);
+  }
+}
+
+TEST(VerletList, WithoutAnOuterListThereIsNothingToTake) {
+  Sample<2> sample = random_sample<2>(16, tilted_box<2>(2.4, 0), 0.2, 15);
+  VerletList<2> list;
+  EXPECT_FALSE(list.narrow(sample.position, sample.radius, sample.cell, sample.planes));
+  list.configure(0, 0.1);
+  list.build(sample.position, sample.radius, sample.cell, sample.planes);
+  EXPECT_FALSE(list.narrow(sample.position, sample.radius, sample.cell, sample.planes));
+  EXPECT_THROW(list.configure(0, 0.1, 0.05), std::exception);
 }
 
 TEST(VerletList, RefusesUnsoundStates) {
