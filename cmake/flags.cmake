@@ -9,6 +9,11 @@ target_compile_options(galet_flags INTERFACE
   # -Wrestrict reports string concatenation falsely in GCC 12 (bug 105651).
   -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict)
 if(CMAKE_UNITY_BUILD)
+  # Most of a compilation is what Eigen's expressions make of themselves, again in each file: few large files take a third
+  # less than many. Two cores need no more than two or three of a target.
+  if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 40)
+  endif()
   # Types of a source's unnamed namespace look to GCC as if a header held them, its constants as those of other sources.
   target_compile_options(galet_flags INTERFACE -Wno-subobject-linkage -Wno-shadow)
   # Files this large make GCC collect its garbage over and over: a tenth of the time against half a gigabyte.
@@ -34,9 +39,17 @@ if(GALET_COVERAGE)
   target_link_options(galet_flags INTERFACE --coverage)
 endif()
 
-# Headers that nearly every file of a target includes, compiled once for it: a third of the time of the smaller files.
+# Headers that nearly every file of a target includes, compiled once for it: a third of the time of the smaller files. (As
+# long as a target has many files: where several are compiled as one, reading the headers once more is cheaper.)
 set(GALET_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> <algorithm> <array> <cmath>
     <functional> <map> <memory> <numeric> <optional> <span> <string> <vector>)
+
+# galet_precompile(TARGET HEADERS...)
+function(galet_precompile target)
+  if(NOT CMAKE_UNITY_BUILD)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
 
 # galet_library(NAME DEPENDS...): one of the project's libraries, built from every .cpp file below this folder.
 function(galet_library name)
@@ -49,9 +62,9 @@ function(galet_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/galet>)
   target_link_libraries(galet_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:galet_flags>)
   target_compile_features(galet_${name} PUBLIC cxx_std_20)
-  target_precompile_headers(galet_${name} PRIVATE ${GALET_COMMON_HEADERS})
+  galet_precompile(galet_${name} ${GALET_COMMON_HEADERS})
   # The largest files, each a target's longest compilation already.
-  set_source_files_properties(instances.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties(instances.cpp solver_instances.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # Kernels are compiled once per instruction set (common/core/instructions.hpp): GALET_SETS has those of this build.

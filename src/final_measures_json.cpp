@@ -32,7 +32,7 @@ struct Spread {
 };
 
 /// Of the values that are numbers.
-Spread spread(const std::vector<double>& values) {
+Spread spread_of(const std::vector<double>& values) {
   double sum = 0, squares = 0, count = 0;
   for (double value : values)
     if (!std::isnan(value)) sum += value, squares += value * value, ++count;
@@ -54,7 +54,7 @@ Json measures_json(const FinalMeasures& measures) {
   for (const GapRow& row : measures.gaps) json["gaps"].push_back({{"gap", row.gap}, {"z", row.coordination}});
   if (!measures.profile.empty()) json["profile"] = {{"states", measures.profile_states}};
   if (!measures.local_solid_fraction.empty()) {
-    const Spread local = spread(measures.local_solid_fraction);
+    const Spread local = spread_of(measures.local_solid_fraction);
     json["voronoi"] = {{"mean", local.mean}, {"standard_deviation", local.deviation}};
   }
   if (const auto& counts = measures.indeterminacy)
@@ -81,7 +81,7 @@ std::string measures_text(const FinalMeasures& measures) {
     text += fmt::format("elastic moduli: bulk {:.4g}, shear {:.4g} (affine estimates {:.4g}, {:.4g})\n", moduli->bulk,
                         moduli->shear, moduli->affine_bulk, moduli->affine_shear);
   if (!measures.local_solid_fraction.empty()) {
-    const Spread local = spread(measures.local_solid_fraction);
+    const Spread local = spread_of(measures.local_solid_fraction);
     text += fmt::format("Voronoi cells: Phi {:.4g}, standard deviation {:.2g}\n", local.mean, local.deviation);
   }
   return text;

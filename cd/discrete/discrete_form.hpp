@@ -46,29 +46,7 @@ class DiscreteForm {
 
   /// `free`: velocities without any reaction (attraction included); `reaction`: the engine's impulses.
   static StepProblem of(const Problem<Y>& problem, const Iterate<Y>& free, const Column<Reaction<Y>>& reaction,
-                        ProblemForm wanted = ProblemForm::local) {
-    const DiscreteForm form(problem);
-    StepProblem step{wanted};
-    step.problem.block = block;
-    for (std::size_t c = 0; c < form.kept_.size(); ++c) {
-      const std::size_t k = form.kept_[c];
-      if constexpr (Y.friction) step.problem.mu.push_back(problem.laws[problem.law[k]].friction);
-      if constexpr (!Y.friction) step.problem.mu.push_back(0);
-      if constexpr (Y.rolling) step.problem.mu_r.push_back(problem.laws[problem.law[k]].rolling);
-      append(form.local(c, law_motion(problem, free, free.gradient, k, Components<Y>{})), step.problem.q);
-      append(form.local(c, components<Y>(problem.normal[k], reaction[k])), step.r);
-    }
-    if (wanted == ProblemForm::global) {
-      form.make_global(free, step);
-      return step;
-    }
-    form.fill_matrix(step.problem);
-    step.u = step.problem.q;
-    for (int a = 0; a < step.problem.rows(); ++a)
-      for (std::int64_t e = step.problem.start[a]; e < step.problem.start[a + 1]; ++e)
-        step.u[a] += step.problem.value[e] * step.r[step.problem.column[e]];
-    return step;
-  }
+                        ProblemForm wanted = ProblemForm::local);
 
  private:
   using Block = Eigen::Matrix<double, block, block>;
@@ -369,5 +347,39 @@ class DiscreteForm {
   std::vector<Eigen::Matrix<double, D, D - 1>> tangents_;
   std::vector<std::vector<Side>> sides_;  ///< by body
 };
+
+template <Layout Y>
+StepProblem DiscreteForm<Y>::of(const Problem<Y>& problem, const Iterate<Y>& free, const Column<Reaction<Y>>& reaction,
+                                ProblemForm wanted) {
+  const DiscreteForm form(problem);
+  StepProblem step{wanted};
+  step.problem.block = block;
+  for (std::size_t c = 0; c < form.kept_.size(); ++c) {
+    const std::size_t k = form.kept_[c];
+    if constexpr (Y.friction) step.problem.mu.push_back(problem.laws[problem.law[k]].friction);
+    if constexpr (!Y.friction) step.problem.mu.push_back(0);
+    if constexpr (Y.rolling) step.problem.mu_r.push_back(problem.laws[problem.law[k]].rolling);
+    append(form.local(c, law_motion(problem, free, free.gradient, k, Components<Y>{})), step.problem.q);
+    append(form.local(c, components<Y>(problem.normal[k], reaction[k])), step.r);
+  }
+  if (wanted == ProblemForm::global) {
+    form.make_global(free, step);
+    return step;
+  }
+  form.fill_matrix(step.problem);
+  step.u = step.problem.q;
+  for (int a = 0; a < step.problem.rows(); ++a)
+    for (std::int64_t e = step.problem.start[a]; e < step.problem.start[a + 1]; ++e)
+      step.u[a] += step.problem.value[e] * step.r[step.problem.column[e]];
+  return step;
+}
+
+// Compiled in cd/solver_instances.cpp, and only there.
+extern template class DiscreteForm<Layout{2, false}>;
+extern template class DiscreteForm<Layout{2, true}>;
+extern template class DiscreteForm<Layout{2, true, true}>;
+extern template class DiscreteForm<Layout{3, false}>;
+extern template class DiscreteForm<Layout{3, true}>;
+extern template class DiscreteForm<Layout{3, true, true}>;
 
 }  // namespace galet::cd

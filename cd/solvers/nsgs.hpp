@@ -37,24 +37,7 @@ class Nsgs {
 
   /// Starts from iterate.reaction with the velocities that belong to it, and leaves the solution there. Never worse
   /// than the best of the iterates that were checked, the start included.
-  SolveReport solve(const Problem<Y>& problem, const SolverOptions& options, Iterate<Y>& iterate) {
-    SolveReport report;
-    if (problem.size() == 0) return report;
-    block_ = hub_block(problem);
-    if constexpr (!Y.rolling)
-      if (plain_.load(problem, iterate, block_)) {
-        report = Iteration(plain_, options).run();
-        if (!start_is_better(problem, iterate, report)) plain_.unload(iterate);
-        return report;
-      }
-    copy_state(iterate, start_);
-    // What few solves need has its memory before, so that no later step allocates.
-    copy_state(iterate, kept_), copy_state(iterate, direction_);
-    General general(*this, problem, iterate);
-    report = Iteration(general, options).run();
-    if (start_is_better(problem, start_, report)) copy_state(start_, iterate);
-    return report;
-  }
+  SolveReport solve(const Problem<Y>& problem, const SolverOptions& options, Iterate<Y>& iterate);
 
  private:
   /// Number of contacts between two updates of the hub.
@@ -232,5 +215,34 @@ class Nsgs {
   struct None {};
   std::conditional_t<Y.rolling, None, PlainSweeps<Y>> plain_;
 };
+
+template <Layout Y>
+SolveReport Nsgs<Y>::solve(const Problem<Y>& problem, const SolverOptions& options, Iterate<Y>& iterate) {
+  SolveReport report;
+  if (problem.size() == 0) return report;
+  block_ = hub_block(problem);
+  if constexpr (!Y.rolling)
+    if (plain_.load(problem, iterate, block_)) {
+      report = Iteration(plain_, options).run();
+      if (!start_is_better(problem, iterate, report)) plain_.unload(iterate);
+      return report;
+    }
+  copy_state(iterate, start_);
+  // What few solves need has its memory before, so that no later step allocates.
+  copy_state(iterate, kept_), copy_state(iterate, direction_);
+  General general(*this, problem, iterate);
+  report = Iteration(general, options).run();
+  if (start_is_better(problem, start_, report)) copy_state(start_, iterate);
+  return report;
+}
+
+// Compiled in cd/solver_instances.cpp, and only there: what uses the solver is spared minutes. (A member that is
+// defined inside of its class would be compiled wherever it is used, declared extern or not.)
+extern template class Nsgs<Layout{2, false}>;
+extern template class Nsgs<Layout{2, true}>;
+extern template class Nsgs<Layout{2, true, true}>;
+extern template class Nsgs<Layout{3, false}>;
+extern template class Nsgs<Layout{3, true}>;
+extern template class Nsgs<Layout{3, true, true}>;
 
 }  // namespace galet::cd

@@ -4,6 +4,7 @@
 
 #include "tests/support/limit_alloc.hpp"
 #include "tests/support/rigid_laws.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace galet::test::cd_laws_test {
 namespace {
@@ -96,9 +97,9 @@ void check_allocation(const RichLaw& law) {
   law.change(scene);
   mix_materials<D>(scene, sample);
   const auto engine = make_engine<D>(EngineKind::cd, scene, sample);
-  engine->advance(1000);
+  engine->advance(sanitized ? 200 : 1000);
   const AllocationCount count;
-  engine->advance(300);
+  engine->advance(sanitized ? 100 : 300);
   EXPECT_EQ(count.count(), 0);
 }
 

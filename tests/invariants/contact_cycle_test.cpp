@@ -7,6 +7,7 @@
 #include "md/laws/normal.hpp"
 #include "md/laws/spring.hpp"
 #include "md/pair_terms.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace galet::md::test::contact_cycle_test {
 namespace {
@@ -116,7 +117,7 @@ double naive_work(const Cycle& cycle) {
   return work;
 }
 
-constexpr int cycles = 100000;
+constexpr int cycles = galet::test::sanitized ? 2000 : 100000;
 
 TEST(ContactCycle, NeverYieldsWork) {
   for (const bool hertz : {false, true}) {
@@ -172,7 +173,8 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
     }
 }
 
-/// A loaded contact carried through 1e5 random rotations keeps its force in the frame that turns with it.
+/// A loaded contact carried through 1e5 (with sanitizers: 1e4) random rotations keeps its force in the frame that turns
+/// with it.
 TEST(ContactRotation, KeepsForceInTheMovingFrame) {
   for (const double angle : {1e-4, 1e-3, 1e-2}) {  // largest turn per step
     SCOPED_TRACE(angle);
@@ -181,7 +183,7 @@ TEST(ContactRotation, KeepsForceInTheMovingFrame) {
     const Vec<3> normal_at_start = Vec<3>(2, 3, 6).normalized();
     const Vec<3> force_at_start = normal_at_start.cross(Vec<3>(0.3, -0.5, 0.9));
     Vec<3> normal = normal_at_start, force = force_at_start;
-    for (int step = 0; step < 100000; ++step) {
+    for (int step = 0; step < (galet::test::sanitized ? 10000 : 100000); ++step) {
       const Vec<3> turn = angle * Vec<3>(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       const double norm = turn.norm();
       frame = (Eigen::Quaterniond(Eigen::AngleAxisd(norm, turn / norm)) * frame).normalized();

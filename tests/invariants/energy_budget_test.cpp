@@ -2,6 +2,7 @@
 // drives and planes less what each channel dissipates. Momentum and angular momentum are conserved to rounding.
 #include <gtest/gtest.h>
 
+#include "tests/support/sanitized.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace galet::test::energy_budget_test {
@@ -82,14 +83,20 @@ Scene sheared(const Case& which, double dt) {
 }
 
 /// Runs at three steps: the residual is of second order (trapezoidal sums and velocity Verlet; forces that jump where
-/// a damped contact opens do work at one step only, so they do not lower the order of the budget).
+/// a damped contact opens do work at one step only, so they do not lower the order of the budget). With sanitizers the
+/// coarsest step only, where the residual may be 4^2 times that of the finest.
 template <int D>
 void check_closure(const std::function<Budget(double)>& run, double finest) {
   const std::array<double, 3> steps{4e-4, 2e-4, 1e-4};
   std::array<double, 3> residual;
-  for (int k = 0; k < 3; ++k) {
+  const int runs = sanitized ? 1 : 3;
+  for (int k = 0; k < runs; ++k) {
     const Budget budget = run(steps[k]);
     residual[k] = std::abs(budget.residual) / budget.passed;
+  }
+  if (sanitized) {
+    EXPECT_LT(residual[0], 16 * finest);
+    return;
   }
   // Observed: 1.9 to 2.2, and more where terms cancel. Residuals scatter with the histories, which are chaotic.
   EXPECT_GT(observed_order(steps, residual), 1.6) << residual[0] << " " << residual[1] << " " << residual[2];

@@ -3,12 +3,16 @@
 
 #include "common/measure/numbers.hpp"
 #include "common/measure/stress.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace galet::test::stress_control_test {
 namespace {
 
 constexpr double pressure = 1;
+
+/// Of the cell, as multiples of its usual inertia. Sanitizers see the same code whatever its value.
+std::vector<double> inertia_factors() { return sanitized ? std::vector{0.3} : std::vector{0.3, 1.0, 3.0}; }
 
 Scene isotropic_scene(int dim, double stiffness) {
   Scene scene = periodic_scene(dim, 0, 0.1, stiffness);
@@ -56,7 +60,7 @@ void check_soft_crystal(double inertia_factor, int components) {
 }
 
 TEST(StressControl, SoftCrystalReachesThePressureExactly) {
-  for (double inertia_factor : {0.3, 1.0, 3.0})
+  for (double inertia_factor : inertia_factors())
     for (int components : {1, 3}) {
       check_soft_crystal<2>(inertia_factor, components);
       check_soft_crystal<3>(inertia_factor, components);
@@ -84,7 +88,7 @@ void check_rigid_crystal(double inertia_factor) {
 }
 
 TEST(StressControl, RigidCrystalReachesThePressure) {
-  for (double inertia_factor : {0.3, 1.0, 3.0}) {
+  for (double inertia_factor : inertia_factors()) {
     check_rigid_crystal<2>(inertia_factor);
     check_rigid_crystal<3>(inertia_factor);
   }
@@ -118,7 +122,7 @@ Packing compress(EngineKind kind, double inertia_factor) {
 
 TEST(StressControl, PackingDoesNotDependOnTheCellsInertia) {
   for (EngineKind kind : both_engines)
-    for (double inertia_factor : {0.3, 1.0, 3.0}) {
+    for (double inertia_factor : inertia_factors()) {
       SCOPED_TRACE(to_string(kind) + " inertia " + std::to_string(inertia_factor));
       const Packing packing = compress(kind, inertia_factor);
       // Nearly at rest: what is left of the ringing moves the mean over 40 looks by less than a percent.
