@@ -6,7 +6,7 @@
 #
 # Headers keep their places relative to the repository root, below include/galet: they include each other as
 # "common/...", "md/...", "cd/...", "src/...", inside the repository and outside.
-if(NOT PROJECT_IS_TOP_LEVEL)
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT GALET_BUILD_STUDIES)
   return()
 endif()
 include(CMakePackageConfigHelpers)

@@ -9,7 +9,7 @@ namespace galet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double linear_restitution(double zeta, DampingConvention convention) {
   if (zeta == 0) return 1;

@@ -109,7 +109,9 @@ Vector least_energy(const Matrix& w, const Vector& q, double mu) {
     }
     if (!least) continue;
     for (Eigen::Index c = 0; c < contacts; ++c)
-      if ((open >> c & 1) == 0) EXPECT_LT(r.segment(3 * c + 1, 2).norm(), 0.9 * mu * r[3 * c]);
+      if ((open >> c & 1) == 0) {
+        EXPECT_LT(r.segment(3 * c + 1, 2).norm(), 0.9 * mu * r[3 * c]);
+      }
     return scale.cwiseProduct(r);
   }
   ADD_FAILURE() << "no choice of open contacts has least energy";
