@@ -149,8 +149,9 @@ GALET_INLINE void adapt_spring(V stiffness_before, V stiffness, V step, Value& s
 /// which is the smallest rotation from the last normal to the present one, with the last one from the present motion:
 /// nothing needs to be remembered for it. Then about the normal by the angle psi with the mean spin of the two grains,
 ///   tan(psi/2) = dt/4 (w_i + w_j).n
-/// A turn of the normal by theta in a step shortens the vector by theta^4 / 24 (4e-18 for 1e-4, as in slow flows), the
-/// turn about it leaves its norm to rounding and errs by psi^3 / 12 in the angle. `half`: dt/2; `together`: w_i + w_j.
+/// A steady turn of the normal by theta in a step shortens the vector by theta^4 / 24 (4e-18 for 1e-4, as in slow
+/// flows), one about it leaves its norm to rounding and errs by psi^3 / 12 in the angle; both together err by theta^2
+/// psi / 4. `half`: dt/2; `together`: w_i + w_j.
 template <class V>
 GALET_INLINE Space<V> carried(const Space<V>& value, const Space<V>& normal, V inverse_distance, const Space<V>& across,
                               const Space<V>& together, V half) {

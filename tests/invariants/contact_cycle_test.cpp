@@ -173,30 +173,65 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
     }
 }
 
+/// The force of a pair at unit distance that turns rigidly by `turn` in a step that ends with the normal `next`.
+Vec<3> turned(const Vec<3>& force, const Vec<3>& next, const Vec<3>& turn) {
+  return from_lanes(carried<Lane>(to_lanes(force), to_lanes(next), 1.0, to_lanes(Vec<3>(turn.cross(next))),
+                                  to_lanes(Vec<3>(2 * turn)), 0.5));
+}
+
 /// A loaded contact carried through 1e5 (with sanitizers: 1e4) random rotations keeps its force in the frame that turns
 /// with it.
 TEST(ContactRotation, KeepsForceInTheMovingFrame) {
-  for (const double angle : {1e-4, 1e-3, 1e-2}) {  // largest turn per step
+  const int steps = galet::test::sanitized ? 10000 : 100000;
+  for (const double angle : {1e-4, 1e-3, 1e-2}) {  // largest turn per step, by component
     SCOPED_TRACE(angle);
     RandomStream random(12, 1);
     Eigen::Quaterniond frame = Eigen::Quaterniond::Identity();
     const Vec<3> normal_at_start = Vec<3>(2, 3, 6).normalized();
     const Vec<3> force_at_start = normal_at_start.cross(Vec<3>(0.3, -0.5, 0.9));
-    Vec<3> normal = normal_at_start, force = force_at_start;
-    for (int step = 0; step < (galet::test::sanitized ? 10000 : 100000); ++step) {
+    Vec<3> force = force_at_start;
+    for (int step = 0; step < steps; ++step) {
       const Vec<3> turn = angle * Vec<3>(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       const double norm = turn.norm();
       frame = (Eigen::Quaterniond(Eigen::AngleAxisd(norm, turn / norm)) * frame).normalized();
-      const Vec<3> next = frame * normal_at_start;
-      const LaneVector turned = twisted<Lane>(to_lanes(force), to_lanes(normal), to_lanes(turn), 1.0);
-      force = from_lanes(carried(turned, to_lanes(normal), to_lanes(next)));
-      normal = next;
+      const Vec<3> normal = frame * normal_at_start;
+      force = turned(force, normal, turn);
+      ASSERT_LT(std::abs(force.dot(normal)), 1e-15);
     }
-    // Rounding of 1e5 steps adds up like a random walk: 300 times 2e-16, and a margin of ten in each of both sides.
-    EXPECT_NEAR(force.norm(), force_at_start.norm(), 1e-11);
-    EXPECT_LT((force - frame * force_at_start).norm(), 1e-10);
-    EXPECT_LT(std::abs(force.dot(normal)), 1e-15);
+    // A step errs by w_n w_T^2 / 4 at most, (angle^3) / 4 for components of that size, in directions at random:
+    // three times the walk of so many steps. To it comes that of rounding, 300 times 2e-16, with a margin of a
+    // thousand.
+    const double error = 3 * std::sqrt(steps) * std::pow(angle, 3) / 4 + 1e-10;
+    EXPECT_NEAR(force.norm(), force_at_start.norm(), error);
+    EXPECT_LT((force - frame * force_at_start).norm(), error);
   }
+}
+
+/// A steady turn about an axis across the normal: of a force in the plane of the turn a share theta^4 / 24 is lost per
+/// step, one along the axis keeps its norm.
+TEST(ContactRotation, SteadyTurnOfTheNormal) {
+  const double angle = 1e-2;
+  const int steps = 10000;
+  const Vec<3> turn(0, 0, angle);
+  Vec<3> along = Vec<3>::UnitY(), across = Vec<3>::UnitZ();
+  for (int step = 1; step <= steps; ++step) {
+    const Vec<3> normal(std::cos(step * angle), std::sin(step * angle), 0);
+    along = turned(along, normal, turn), across = turned(across, normal, turn);
+  }
+  EXPECT_NEAR((1 - along.norm()) / (steps * std::pow(angle, 4) / 24), 1, 1e-3);  // terms of theta^6
+  EXPECT_NEAR(across.norm(), 1, 1e-12);
+}
+
+/// A steady turn about the normal keeps the norm to rounding, and errs by psi^3 / 12 in the angle.
+TEST(ContactRotation, SteadyTurnAboutTheNormal) {
+  const double angle = 1e-2;
+  const int steps = 10000;
+  Vec<3> force = Vec<3>::UnitY();
+  for (int step = 0; step < steps; ++step) force = turned(force, Vec<3>::UnitX(), Vec<3>(angle, 0, 0));
+  EXPECT_NEAR(force.norm(), 1, 1e-12);  // rounding, 1e-16 per step
+  const double lag = steps * std::pow(angle, 3) / 12, expected = steps * angle - lag;
+  const Vec<3> direction(0, std::cos(expected), std::sin(expected));
+  EXPECT_LT((force - direction).norm(), 1e-2 * lag);
 }
 
 }  // namespace
