@@ -11,7 +11,7 @@ namespace galet {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown_cost = std::numeric_limits<double>::quiet_NaN();
 
 /// The samples of one state of one engine.
 struct CostGroup {
@@ -58,7 +58,7 @@ double relative_squares(const CostGroup& group, Observable observable) {
 }
 
 double cost_of_run(const StudyRow& row, Observable observable) {
-  return row.run.ending == Ending::equilibrium ? none : seconds_to_one_percent(row, observable);
+  return row.run.ending == Ending::equilibrium ? unknown_cost : seconds_to_one_percent(row, observable);
 }
 
 double seconds_of_a_sample(const CostGroup& group) {
@@ -90,7 +90,7 @@ const CostGroup* partner_of(const CostGroup& cd, const std::vector<CostGroup>& g
 
 double seconds_to_one_percent(const StudyRow& row, Observable observable) {
   const Estimate& mean = row[observable];
-  if (!(mean.error > 0) || !(mean.value != 0)) return none;
+  if (!(mean.error > 0) || !(mean.value != 0)) return unknown_cost;
   return row.run.cpu_seconds * std::pow(100 * mean.error / mean.value, 2);
 }
 
