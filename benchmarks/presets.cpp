@@ -2,7 +2,8 @@
 //   presets FOLDER_OF_SCENES [NAME...] [FIELD=VALUE...]      table as CSV on standard output
 //
 // FIELD=VALUE changes the scenes named, as `galet run --set` does; the column `changes` says so.
-// sigma, mu*, Phi, z: of the last stage means as the run's summary has them, of stages before their last sample.
+// sigma, mu*, Phi, z: of the last stage means as the run's summary has them, or its last sample where it ends at rest;
+// of stages before their last sample.
 // `held`: each stress and rate that the loading asks for at the end of the stage, with what was there, as "sigma_yy 1:
 // 0.999+-0.02": mean and standard deviation of the rows of the last third of the stage (of a stress that changes, the
 // last row, a mean over the last hundredth of the way). `budget`: md: what its energy budget doesn't account for, over
@@ -152,9 +153,10 @@ std::string held(const Scene& stage, const Derived& derived, const std::vector<M
   return text;
 }
 
-/// Means over the averaged part where the scene averages, else the last sample.
+/// Means over the averaged part; the last sample of a run that ends at rest: what was on its way there is no state.
 Measurement averages_of(const RunResult& result) {
   Measurement mean = result.last;
+  if (result.ending == Ending::equilibrium) return mean;
   for (int k = 0; k < observable_count; ++k) {
     const double value = result.averages[static_cast<Observable>(k)].value;
     if (std::isfinite(value)) mean.values[k] = value;

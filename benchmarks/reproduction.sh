@@ -13,6 +13,55 @@ only within two standard errors of ours; *NO*: neither. Where the source states 
 it. The size that was run stands in each head; a quick size is a first look. Scenes (`scenes/*.toml`) run alone with `galet run`.
 
 END
+# cost_row STUDY QUANTITY [awk's settings]: a row of the table of costs, if the study has results of both engines.
+cost_row() {
+  study=$1; quantity=$2; shift 2
+  [ -f "$results/$study/runs.csv" ] || return 0
+  cells=$(awk "$@" -f "$root/benchmarks/study_costs.awk" "$results/$study/runs.csv")
+  [ -n "$cells" ] && echo "| $study | $quantity | $cells |"
+  return 0
+}
+cat <<'END'
+## What each engine costs at equal error
+
+Processor seconds to a standard error of 1 % of the quantity, geometric means over the states that both engines have, from `runs.csv` of each study
+(`src/studies/costs.hpp` has the definitions). md / cd above 1: rigid grains are cheaper.
+
+| study | quantity | states | md, s | cd, s | md / cd | from state to state |
+|---|---|---|---|---|---|---|
+END
+for name in flow-law flow-kappa flow-friction flow-restitution; do cost_row $name 'mu\*' -v observable=mu_star; done
+cost_row inclined-plane 'mu\* of its homogeneous shear' -v observable=mu_star -v need=I_set
+cost_row annular-shear 'mu\* of its homogeneous shear' -v observable=mu_star -v need=I_set
+cost_row annular-shear 'annuli: one sample' -v observable=mu_star -v need=R_i -v samples=1
+cost_row cohesive-flow 'mu\*' -v observable=mu_star
+cost_row critical-state 'mu\*' -v observable=mu_star
+cost_row regimes 'mu\* of flows' -v observable=mu_star -v flows=1
+cost_row regimes 'z\* of assemblies, q/P of type II: one sample' -v observable=z_star -v flows=0 -v samples=1
+cost_row compression 'z\*: one sample' -v observable=z_star -v samples=1
+cost_row triaxial 'q/P: one sample' -v observable=Phi -v samples=1
+cost_row consolidation '1/Phi: one sample' -v observable=Phi -v samples=1
+cat <<'END'
+
+- *one sample*: what is uncertain there is the packing, not an average over its time. Packings of both engines scatter alike, so equal error needs equally many of
+  them, and the seconds of one sample say what the engines cost.
+- Errors are statistical. What the settings add (stiffness in md, time step and tolerance in cd) is not in them: `benchmarks/run.sh work_precision`
+  ([validation](validation.md)) measures error against cost with both, and `galet compare --error X` chooses engine and settings for a scene.
+- Rigid grains stand beside the stiffest contacts of md in `flow-kappa` and `triaxial`, elastic ones of cd beside equal stiffness. md takes steps as
+  1 / sqrt(kappa): at kappa = 1e5 (`cohesive-flow`) it costs ten times what it does at 1e3 (`inclined-plane`, `annular-shear`), and that is what decides, with the
+  inertial number: rigid grains are the better choice in fast flows and stiff ones, soft ones at kappa of a few thousand near rest, where cd's contacts want many
+  sweeps.
+- Not to be had from these rows: local laws of slopes and annuli, whose errors are not kept row by row.
+- Reports below whose costs are of "the cheapest row of each engine" were written before these definitions: there `flow-kappa` compares kappa = 40 with rigid grains,
+  and `annular-shear` and `triaxial` take errors of averages over time for those of samples.
+
+END
+if [ -f "$results/compression/report.txt" ]; then
+  cat <<'END'
+In `compression` md goes on from the assembled state to lower kappa, cd does not: its row is an upper bound of md / cd.
+
+END
+fi
 if ! ls "$results"/*/report.txt >/dev/null 2>&1; then echo "No results are here yet."; fi
 # In the order of the chapter.
 for name in flow-law flow-kappa flow-friction flow-restitution inclined-plane annular-shear cohesive-flow compression triaxial critical-state consolidation regimes; do

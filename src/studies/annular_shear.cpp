@@ -37,19 +37,12 @@ std::vector<LocalState> rings_of(const StudyRow& row) {
   return rings;
 }
 
-std::vector<const StudyRow*> homogeneous(const std::vector<StudyRow>& rows, EngineKind engine) {
-  std::vector<const StudyRow*> found;
-  for (const StudyRow* row : rows_with(rows, engine, {}))
-    if (std::isfinite(row->plan.parameter("I"))) found.push_back(row);
-  return found;
-}
-
-/// Mean over the samples of one radius with the error of their scatter.
-template <class Value>
-Estimate over_samples(const std::vector<StudyRow>& rows, EngineKind engine, double radius, Value&& value) {
-  std::vector<Estimate> values;
-  for (const StudyRow* row : rows_with(rows, engine, {{"R_i", radius}})) values.push_back({value(rings_of(*row)), 0});
-  return values.size() > 1 ? weighted_mean(values) : Estimate{none, none};
+/// NaN of a single sample of that radius: its error is not known.
+Estimate over_samples(const std::vector<StudyRow>& rows, EngineKind engine, double radius,
+                      const std::function<double(const std::vector<LocalState>&)>& number) {
+  const auto samples = rows_with(rows, engine, {{"R_i", radius}});
+  if (samples.size() < 2) return {none, none};
+  return mean_over(samples, [&](const StudyRow& row) { return number(rings_of(row)); });
 }
 
 /// Local minus homogeneous at one I.
@@ -57,7 +50,7 @@ Estimate deviation(const std::vector<StudyRow>& rows, EngineKind engine, double 
                    Observable observable, double LocalState::*quantity) {
   const Estimate local =
       over_samples(rows, engine, radius, [&](const auto& rings) { return local_at(rings, state, quantity); });
-  return local - homogeneous_at(homogeneous(rows, engine), state, observable);
+  return local - homogeneous_at(shear_rows(rows, engine), state, observable);
 }
 
 /// Standard deviation of shear stress r^2 over the rings, over its mean.
@@ -143,7 +136,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, EngineKind engine, Observab
                 true,
                 false,
                 {}};
-  Series shear = series_of("homogeneous shear", homogeneous(rows, engine), "I", observable);
+  Series shear = series_of("homogeneous shear", shear_rows(rows, engine), "I", observable);
   shear.line = true;
   if (!shear.x.empty()) figure.series.push_back(shear);
   for (const double radius : values_of(rows, "R_i")) {
@@ -194,9 +187,7 @@ std::vector<StudyRun> plan(StudySize size) {
       scene.inertial_number = state;
       scene.strain = quick ? 20 : 60;
       scene.cd_dt_factor = dt;
-      scene.title = fmt::format("annular-shear: {}, homogeneous shear, I = {:g}", engine_name(engine), state);
-      runs.push_back(
-          {fmt::format("{}_I_{:g}", engine_name(engine), state), engine, {{"I", state}}, shear_scene(scene)});
+      runs.push_back(shear_row("annular-shear", scene));
     }
     for (const double radius : radii_of(engine, quick))
       for (const int seed : quick ? std::vector{1, 2} : std::vector{1, 2, 3}) {

@@ -9,6 +9,7 @@
 #include "src/engines.hpp"
 #include "src/line_fit.hpp"
 #include "src/studies/estimates.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -39,21 +40,17 @@ std::vector<double> pressures(bool quick) {
 }
 
 std::string consolidation_scene(EngineKind engine, double rolling, int seed, bool quick, const std::string& title) {
-  std::string text = fmt::format(R"(title = "{}"
-dimension = 2
-seed = {}
-units = "reduced"  # d = m = F0 = 1
-engine = "{}"
-
-[grains]
-count = {}
-diameter = {{distribution = "uniform", mean = 1.0, spread = 0.3333}}
-mass = 1.0
-
-[material]
-friction = 0.5
-restitution = 0.2
-stiffness_level = {}
+  const SceneHead head{title,
+                       engine,
+                       2,
+                       seed,
+                       "d = m = F0 = 1",
+                       quick ? 200 : 1400,
+                       R"({distribution = "uniform", mean = 1.0, spread = 0.3333})",
+                       0.5,
+                       0.2};
+  std::string text =
+      scene_head(head) + fmt::format(R"(stiffness_level = {}
 cohesion_force = 1.0
 cohesion_range = 0.01
 {}
@@ -68,8 +65,7 @@ pressure = 1.0  # the unit of stress: F0 / d
 [run]
 samples = 50
 )",
-                                 title, seed, engine_name(engine), quick ? 200 : 1400, stiffness,
-                                 rolling > 0 ? fmt::format("rolling_friction = {}\n", rolling) : "");
+                                     stiffness, rolling > 0 ? fmt::format("rolling_friction = {}\n", rolling) : "");
   text += "\n[[stage]]\nname = \"aggregation\"\nduration = 100\nloading = {kind = \"none\"}\n";
   text += fmt::format("\n[[stage]]\nname = \"{}\"\nduration = 300\nloading = {{kind = \"isotropic\", pressure = {}}}\n",
                       pressure_name(first_pressure), first_pressure);
@@ -98,11 +94,9 @@ double at_end(const StudyRow& row, const std::string& stage) {
   return report ? 1 / report->last[Observable::solid_fraction] : std::nan("");
 }
 
-template <class Value>
-Estimate over_seeds(const std::vector<StudyRow>& rows, EngineKind engine, double rolling, Value&& value) {
-  std::vector<Estimate> values;
-  for (const StudyRow* row : rows_with(rows, engine, {{"mu_R", rolling}})) values.push_back({value(*row), 0});
-  return weighted_mean(values);
+Estimate over_seeds(const std::vector<StudyRow>& rows, EngineKind engine, double rolling,
+                    const std::function<double(const StudyRow&)>& number) {
+  return mean_over(rows_with(rows, engine, {{"mu_R", rolling}}), number);
 }
 
 void report_engine(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine) {

@@ -61,9 +61,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, cons
                 false,
                 {band}};
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
-    std::vector<const StudyRow*> steady;
-    for (const StudyRow* row : rows_with(rows, engine, {}))
-      if (std::isfinite(row->plan.parameter("I"))) steady.push_back(row);
+    const std::vector<const StudyRow*> steady = shear_rows(rows, engine);
     if (steady.empty()) continue;
     figure.series.push_back(
         series_of(engine == EngineKind::md ? "md, kappa = 10^4" : "cd, rigid", steady, "I", observable));
@@ -106,10 +104,7 @@ std::vector<StudyRun> plan(StudySize size) {
 StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
-    std::vector<const StudyRow*> steady;
-    for (const double state : values_of(rows, "I"))
-      if (const StudyRow* row = row_with(rows, engine, {{"I", state}})) steady.push_back(row);
-    const FlowFit fit = fit_flow(steady);
+    const FlowFit fit = fit_flow(shear_rows(rows, engine));
     report_fit(report, engine, fit);
     const StudyRow* middle = row_with(rows, engine, {{"I", 0.1}});
     report.add("mu* at I = 0.1 (" + engine_name(engine) + ")", value_of(middle, Observable::mu_star),

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "src/engines.hpp"
+#include "src/studies/scene_head.hpp"
 
 namespace galet {
 
@@ -17,23 +17,7 @@ constexpr double area_of_a_grain = 0.796;  ///< mean of pi d^2 / 4, diameters un
 constexpr int contact_steps = 30;          ///< of md: mu* and Phi of flows don't tell 30 from 50
 
 std::string gradient_head(const std::string& title, EngineKind engine, int seed, const std::string& units, int grains) {
-  return fmt::format(R"(title = "{}"
-dimension = 2
-seed = {}
-units = "reduced"  # {}
-engine = "{}"
-
-[grains]
-count = {}
-diameter = {{distribution = "uniform", mean = 1.0, spread = 0.2}}
-mass = 1.0
-
-[material]
-friction = 0.4
-restitution = 0.1
-tangential_stiffness_ratio = 0.5
-)",
-                     title, seed, units, engine_name(engine), grains);
+  return scene_head({title, engine, 2, seed, units, grains}) + "tangential_stiffness_ratio = 0.5\n";
 }
 
 std::string numerics(EngineKind engine, double cd_dt_factor) {
@@ -79,8 +63,7 @@ std::string annulus_scene(const AnnulusScene& scene) {
   // The rings' own grains take half a diameter on either side; the dense start fills the rest.
   const double room = std::numbers::pi * (std::pow(outer - 0.5, 2) - std::pow(inner + 0.5, 2));
   const int grains = static_cast<int>(0.785 * room / area_of_a_grain);
-  std::string text = gradient_head(scene.title, scene.engine, scene.seed,
-                                   "d = m = P = 1; the unit of time is the inertial time", grains);
+  std::string text = gradient_head(scene.title, scene.engine, scene.seed, units_of_pressure, grains);
   text += fmt::format(R"(stiffness_level = {0}
 
 [initial]

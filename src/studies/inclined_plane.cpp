@@ -62,13 +62,6 @@ Estimate change_in_depth(const std::vector<LocalState>& bulk, double LocalState:
   return scale * fit_line(points).slope;
 }
 
-std::vector<const StudyRow*> homogeneous(const std::vector<StudyRow>& rows, EngineKind engine) {
-  std::vector<const StudyRow*> found;
-  for (const StudyRow* row : rows_with(rows, engine, {}))
-    if (std::isfinite(row->plan.parameter("I"))) found.push_back(row);
-  return found;
-}
-
 std::vector<const StudyRow*> slopes(const std::vector<StudyRow>& rows, EngineKind engine) {
   return rows_with(rows, engine, {{"dt", engine == EngineKind::cd ? coarse : 0}});
 }
@@ -128,7 +121,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, doub
                 false,
                 {}};
   for (const EngineKind engine : engines) {
-    Series shear = series_of(engine_name(engine) + ", homogeneous shear", homogeneous(rows, engine), "I", observable);
+    Series shear = series_of(engine_name(engine) + ", homogeneous shear", shear_rows(rows, engine), "I", observable);
     shear.line = true;
     if (!shear.x.empty()) figure.series.push_back(shear);
     Series layers{engine_name(engine) + ", bulk of a slope", {}, {}, {}, false, false};
@@ -197,9 +190,7 @@ std::vector<StudyRun> plan(StudySize size) {
       scene.stiffness_level = quick ? 1e3 : 1e4;
       scene.inertial_number = state;
       scene.strain = quick ? 20 : 60;
-      scene.title = fmt::format("inclined-plane: {}, homogeneous shear, I = {:g}", engine_name(engine), state);
-      runs.push_back(
-          {fmt::format("{}_I_{:g}", engine_name(engine), state), engine, {{"I", state}}, shear_scene(scene)});
+      runs.push_back(shear_row("inclined-plane", scene));
     }
   }
   return runs;
@@ -208,7 +199,7 @@ std::vector<StudyRun> plan(StudySize size) {
 StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const EngineKind engine : engines) {
-    const auto shear = homogeneous(rows, engine);
+    const auto shear = shear_rows(rows, engine);
     const FlowFit law = fit_flow(shear);
     for (const StudyRow* row : slopes(rows, engine))
       if (flows(*row)) report_flow(report, *row, shear);

@@ -4,6 +4,7 @@
 
 #include "src/engines.hpp"
 #include "src/studies/regimes.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/solid_templates.hpp"
 #include "src/studies/templates.hpp"
 
@@ -43,21 +44,10 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
 /// A gas at rest is compressed at the rate I / tau_i until the pressure is P, which then holds it until it is at rest.
 std::string assembly_of_disks(EngineKind engine, const State& state, bool elastic, int seed, const std::string& title,
                               bool quick) {
-  std::string text = fmt::format(R"(title = "{}"
-dimension = 2
-seed = {}
-units = "reduced"  # d = m = P = 1; the unit of time is the inertial time
-engine = "{}"
-
-[grains]
-count = {}
-diameter = {{distribution = "uniform", mean = 1.0, spread = 0.2}}
-mass = 1.0
-
-[material]
-friction = {}
-restitution = {}
-stiffness_level = {}
+  SceneHead head{title, engine, 2, seed};
+  head.grains = quick ? 200 : 2000;
+  head.friction = state.friction, head.restitution = state.restitution;
+  std::string text = scene_head(head) + fmt::format(R"(stiffness_level = {}
 tangential_stiffness_ratio = 0.5
 {}
 [initial]
@@ -70,8 +60,7 @@ pressure = 1.0
 [run]
 samples = 100
 )",
-                                 title, seed, engine_name(engine), quick ? 200 : 2000, state.friction,
-                                 state.restitution, state.stiffness_level, material_lines(state, elastic));
+                                                    state.stiffness_level, material_lines(state, elastic));
   if (engine == EngineKind::cd)
     text += fmt::format("\n[cd]\ntolerance = 1e-4\n{}", elastic ? "compliance = true\n" : "");
   text += fmt::format(

@@ -1,9 +1,7 @@
 #include "src/studies/run_study.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -54,14 +52,6 @@ void run_row(StudyRow& row, const std::string& directory, const WorkControl& wor
   if (row.usable()) write_row(directory, row);
 }
 
-/// "I = 0.1, mu = 0.4": the parameters that both engines have.
-std::string shared_state(const StudyRun& run) {
-  std::string text;
-  for (const auto& [name, value] : run.parameters)
-    if (name != "kappa" && name != "rigid") text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ", name, value);
-  return text;
-}
-
 }  // namespace
 
 bool StudyOutcome::failed() const {
@@ -100,28 +90,6 @@ StudyOutcome run_study(const Study& study, const StudyOptions& options) {
   outcome.rows = std::move(rows);
   outcome.wall_seconds = wall_seconds() - start;
   return outcome;
-}
-
-double seconds_to_one_percent(const StudyRow& row, Observable observable) {
-  const Estimate& mean = row[observable];
-  if (!(mean.error > 0) || !(mean.value != 0)) return std::numeric_limits<double>::quiet_NaN();
-  return row.run.cpu_seconds * std::pow(100 * mean.error / mean.value, 2);
-}
-
-std::vector<CostPair> cost_pairs(const Study& study, const std::vector<StudyRow>& rows) {
-  std::vector<CostPair> pairs;
-  for (const StudyRow& row : rows) {
-    if (!row.usable()) continue;
-    const double cost = seconds_to_one_percent(row, study.judged);
-    if (std::isnan(cost)) continue;
-    const std::string state = shared_state(row.plan);
-    auto found = std::find_if(pairs.begin(), pairs.end(), [&](const CostPair& pair) { return pair.state == state; });
-    if (found == pairs.end()) found = pairs.insert(pairs.end(), {state, HUGE_VAL, HUGE_VAL});
-    double& cheapest = row.plan.engine == EngineKind::md ? found->md : found->cd;
-    cheapest = std::min(cheapest, cost);
-  }
-  std::erase_if(pairs, [](const CostPair& pair) { return std::isinf(pair.md) || std::isinf(pair.cd); });
-  return pairs;
 }
 
 }  // namespace galet

@@ -30,15 +30,4 @@ struct StudyOutcome {
 /// Writes scenes/NAME.toml and rows/NAME.json of each run below options.directory, and evaluates.
 StudyOutcome run_study(const Study& study, const StudyOptions& options);
 
-/// Ratio of the costs of the engines at equal error: a mean to an error of 1 % takes seconds (100 error / value)^2.
-struct CostPair {
-  std::string state;  ///< "I = 0.1, mu = 0.4": what both rows share
-  double md = 0, cd = 0;
-};
-/// Of the states that both engines have; the cheapest row of each where there are several (kappa).
-std::vector<CostPair> cost_pairs(const Study& study, const std::vector<StudyRow>& rows);
-
-/// Processor seconds to a standard error of 1 %; NaN when the error is not known.
-double seconds_to_one_percent(const StudyRow& row, Observable observable);
-
 }  // namespace galet

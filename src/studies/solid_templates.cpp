@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "src/engines.hpp"
+#include "src/studies/scene_head.hpp"
 
 namespace galet {
 
@@ -23,21 +23,9 @@ std::string rest_stage(const std::string& name, double equilibrium, const std::s
 }  // namespace
 
 std::string assembly_scene(const SolidScene& scene, char state) {
-  std::string text = fmt::format(R"(title = "{}"
-dimension = 3
-seed = {}
-units = "reduced"  # d = m = P = 1; the unit of time is the inertial time
-engine = "{}"
-
-[grains]
-count = {}
-diameter = 1.0
-mass = 1.0
-
-[material]
-friction = {}
-restitution = {}
-normal_law = "hertz"
+  const SceneHead head{scene.title,    scene.engine,     3, scene.seed, units_of_pressure, scene.grains, equal_grains,
+                       scene.friction, scene.restitution};
+  std::string text = scene_head(head) + fmt::format(R"(normal_law = "hertz"
 poisson_ratio = 0.3
 stiffness_level = {}
 {}
@@ -52,8 +40,7 @@ pressure = 1.0
 samples = {}
 average_from = 0.5
 )",
-                                 scene.title, scene.seed, engine_name(scene.engine), scene.grains, scene.friction,
-                                 scene.restitution, scene.stiffness_level, scene.material, scene.samples);
+                                                    scene.stiffness_level, scene.material, scene.samples);
   if (scene.engine == EngineKind::cd) text += "\n[cd]\ntolerance = 1e-4\n";
   if (state == 'D') return text + rest_stage("D", scene.equilibrium, "", "");
   text += rest_stage("A", scene.equilibrium, "friction = 0.0\n", "");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/studies/estimates.hpp"
 #include "src/studies/published.hpp"
 
 namespace galet {
@@ -58,6 +59,12 @@ std::vector<double> values_of(const std::vector<StudyRow>& rows, std::string_vie
     if (value == value && std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
   return values;
+}
+
+Estimate mean_over(const std::vector<const StudyRow*>& samples, const std::function<double(const StudyRow&)>& number) {
+  std::vector<Estimate> values;
+  for (const StudyRow* row : samples) values.push_back({number(*row), 0});
+  return weighted_mean(values);
 }
 
 Series series_of(const std::string& label, const std::vector<const StudyRow*>& rows, std::string_view parameter,

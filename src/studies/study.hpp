@@ -4,6 +4,7 @@
 // study_files.hpp). The registry (registry.hpp) is the list of all.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,6 +93,10 @@ Estimate value_of(const StudyRow* row, Observable observable);
 
 /// The different values of a parameter, in the order of the rows.
 std::vector<double> values_of(const std::vector<StudyRow>& rows, std::string_view parameter);
+
+/// Mean of a number over samples (rows that differ in their seed alone), with the error of their scatter: 0 of one
+/// sample, NaN of none.
+Estimate mean_over(const std::vector<const StudyRow*>& samples, const std::function<double(const StudyRow&)>& number);
 
 /// One line of points with error bars.
 Series series_of(const std::string& label, const std::vector<const StudyRow*>& rows, std::string_view parameter,

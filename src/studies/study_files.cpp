@@ -11,6 +11,7 @@
 #include "common/io/files.hpp"
 #include "src/engines.hpp"
 #include "src/picture_files.hpp"
+#include "src/studies/costs.hpp"
 #include "src/studies/row_file.hpp"
 
 namespace galet {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "src/engines.hpp"
+#include "src/studies/costs.hpp"
 #include "src/studies/study_files.hpp"
 #include "src/text_table.hpp"
 
@@ -62,9 +63,8 @@ std::string costs_text(const Study& study, const std::vector<StudyRow>& rows) {
     sum += std::log(pair.md / pair.cd);
   }
   return fmt::format(
-      "cost: processor seconds to a standard error of 1 % of {}, the cheapest row of each engine\n{}  geometric mean "
-      "of "
-      "md / cd: {:.2g}\n",
+      "cost: processor seconds to a standard error of 1 % of {}, of the mean over a long run or over samples\n{}  "
+      "geometric mean of md / cd: {:.2g}\n",
       info(study.judged).name, table.text("  "), std::exp(sum / static_cast<double>(pairs.size())));
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "src/engines.hpp"
+#include "src/studies/scene_head.hpp"
 
 namespace galet {
 
@@ -13,33 +14,20 @@ namespace {
 
 constexpr int rows_of_a_run = 400;
 
-/// Head, grains and material: what all scenes share.
-std::string head(const ShearScene& scene) {
+std::string head_and_start(const ShearScene& scene) {
   const bool plane = scene.dimension == 2;
-  return fmt::format(R"(title = "{}"
-dimension = {}
-seed = 1
-units = "reduced"  # d = m = P = 1; the unit of time is the inertial time
-engine = "{}"
-
-[grains]
-count = {}
-diameter = {}
-mass = 1.0
-
-[material]
-friction = {}
-restitution = {}
-stiffness_level = {}
+  SceneHead head{scene.title, scene.engine, scene.dimension};
+  head.grains = scene.grains;
+  if (!plane) head.diameter = equal_grains;
+  head.friction = scene.friction, head.restitution = scene.restitution;
+  return scene_head(head) + fmt::format(R"(stiffness_level = {}
 tangential_stiffness_ratio = 0.5
 {}
 [initial]
 kind = "gas"
 solid_fraction = {}
 )",
-                     scene.title, scene.dimension, engine_name(scene.engine), scene.grains,
-                     plane ? R"({distribution = "uniform", mean = 1.0, spread = 0.2})" : "1.0", scene.friction,
-                     scene.restitution, scene.stiffness_level, scene.material, plane ? 0.5 : 0.3);
+                                        scene.stiffness_level, scene.material, plane ? 0.5 : 0.3);
 }
 
 std::string stage(const std::string& name, double strain, double inertial_number, const std::string& more,
@@ -59,8 +47,24 @@ std::string plain_number(double value) {
   return fmt::format("{:g}", value);
 }
 
+StudyRun shear_row(const std::string& study, ShearScene scene) {
+  scene.title =
+      fmt::format("{}: {}, homogeneous shear, I = {:g}", study, engine_name(scene.engine), scene.inertial_number);
+  return {fmt::format("{}_I_{:g}", engine_name(scene.engine), scene.inertial_number),
+          scene.engine,
+          {{"I", scene.inertial_number}},
+          shear_scene(scene)};
+}
+
+std::vector<const StudyRow*> shear_rows(const std::vector<StudyRow>& rows, EngineKind engine) {
+  std::vector<const StudyRow*> found;
+  for (const StudyRow* row : rows_with(rows, engine, {}))
+    if (std::isfinite(row->plan.parameter("I"))) found.push_back(row);
+  return found;
+}
+
 std::string shear_scene(const ShearScene& scene) {
-  std::string text = head(scene);
+  std::string text = head_and_start(scene);
   const bool staged = scene.dense_strain > 0 || scene.volume_strain > 0;
   text += "\n[loading]\npressure = 1.0\n";
   if (!staged) text += fmt::format("kind = \"plane_shear\"\ninertial_number = {}\n", scene.inertial_number);

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "common/scene/scene.hpp"
+#include "src/studies/study.hpp"
 
 namespace galet {
 
@@ -28,6 +29,11 @@ struct ShearScene {
   double cd_dt_factor = 0;   ///< > 0: in place of the default
 };
 std::string shear_scene(const ShearScene& scene);
+
+/// A row of homogeneous shear beside what a study called `study` is about: parameter I, title from engine and I.
+StudyRun shear_row(const std::string& study, ShearScene scene);
+/// The rows of one engine that have the parameter I.
+std::vector<const StudyRow*> shear_rows(const std::vector<StudyRow>& rows, EngineKind engine);
 
 /// "0.1", "1e-3", "2.5e5": for names and titles.
 std::string plain_number(double value);

@@ -61,12 +61,9 @@ double deviator_at(const TriaxialCurve& curve, double strain) {
   return none;
 }
 
-/// Mean over the seeds with the error of their scatter.
-template <class Value>
-Estimate over_seeds(const std::vector<const StudyRow*>& rows, Value&& value) {
-  std::vector<Estimate> values;
-  for (const StudyRow* row : rows) values.push_back({value(triaxial_curve(*row)), 0});
-  return weighted_mean(values);
+Estimate over_seeds(const std::vector<const StudyRow*>& rows,
+                    const std::function<double(const TriaxialCurve&)>& number) {
+  return mean_over(rows, [&](const StudyRow& row) { return number(triaxial_curve(row)); });
 }
 
 std::vector<const StudyRow*> rows_of(const std::vector<StudyRow>& rows, EngineKind engine, char state, double friction,

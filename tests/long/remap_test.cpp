@@ -64,7 +64,7 @@ void check_list(int remaps) {
 }
 
 TEST(Remap, ListKeepsEveryRow2D) { check_list<2>(10000); }
-TEST(Remap, ListKeepsEveryRow3D) { check_list<3>(1000); }
+TEST(Remap, ListKeepsEveryRow3D) { check_list<3>(10000); }
 
 // ---- md, against a cell that is never remapped ---------------------------------------------------------------
 

@@ -25,14 +25,34 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
+/// What local and global problems have alike: a title, and bounds that nothing made round.
+template <class Problem>
+void draw_bounds(Problem& problem, int contacts, RandomStream& stream) {
+  problem.title = "random";
+  problem.description = "two lines,\nand µ";
+  for (int c = 0; c < contacts; ++c) {
+    problem.mu.push_back(stream.uniform(0, 1));
+    if (problem.block == 5) problem.mu_r.push_back(stream.uniform(0, 1));
+  }
+}
+
+template <class Content>
+void expect_same_bounds_and_solution(const Content& back, const Content& content) {
+  EXPECT_EQ(back.problem.block, content.problem.block);
+  EXPECT_EQ(back.problem.title, content.problem.title);
+  EXPECT_EQ(back.problem.description, content.problem.description);
+  EXPECT_TRUE(same_bits(back.problem.mu, content.problem.mu));
+  EXPECT_TRUE(same_bits(back.problem.mu_r, content.problem.mu_r));
+  EXPECT_TRUE(same_bits(back.u, content.u));
+  EXPECT_TRUE(same_bits(back.r, content.r));
+}
+
 /// A sparse W that is not symmetric, and bounds and q that nothing made round.
 FclibContent random_content(int block, int contacts, std::uint64_t seed) {
   RandomStream stream(seed, 1);
   FclibContent content;
   DiscreteProblem& problem = content.problem;
   problem.block = block;
-  problem.title = "random";
-  problem.description = "two lines,\nand µ";
   problem.start = {0};
   for (int a = 0; a < block * contacts; ++a) {
     for (int b = 0; b < block * contacts; ++b)
@@ -44,10 +64,7 @@ FclibContent random_content(int block, int contacts, std::uint64_t seed) {
     problem.q.push_back(stream.normal());
     content.u.push_back(stream.normal()), content.r.push_back(stream.normal());
   }
-  for (int c = 0; c < contacts; ++c) {
-    problem.mu.push_back(stream.uniform(0, 1));
-    if (block == 5) problem.mu_r.push_back(stream.uniform(0, 1));
-  }
+  draw_bounds(problem, contacts, stream);
   problem.q[0] = -0.0, problem.q[1] = std::numeric_limits<double>::denorm_min();
   return content;
 }
@@ -58,17 +75,11 @@ TEST(Fclib, ReturnsTheSameBits) {
     const FclibContent content = random_content(block, 7, 10 + static_cast<std::uint64_t>(block));
     write_fclib(folder.file("a.hdf5"), content);
     const FclibContent back = read_fclib(folder.file("a.hdf5"));
-    EXPECT_EQ(back.problem.block, block);
+    expect_same_bounds_and_solution(back, content);
     EXPECT_EQ(back.problem.start, content.problem.start);
     EXPECT_EQ(back.problem.column, content.problem.column);
     EXPECT_TRUE(same_bits(back.problem.value, content.problem.value));
     EXPECT_TRUE(same_bits(back.problem.q, content.problem.q));
-    EXPECT_TRUE(same_bits(back.problem.mu, content.problem.mu));
-    EXPECT_TRUE(same_bits(back.problem.mu_r, content.problem.mu_r));
-    EXPECT_TRUE(same_bits(back.u, content.u));
-    EXPECT_TRUE(same_bits(back.r, content.r));
-    EXPECT_EQ(back.problem.title, content.problem.title);
-    EXPECT_EQ(back.problem.description, content.problem.description);
     // And written again, the same file.
     write_fclib(folder.file("b.hdf5"), back);
     EXPECT_EQ(file_bytes(folder.file("a.hdf5")), file_bytes(folder.file("b.hdf5")));
@@ -229,7 +240,6 @@ FclibGlobalContent random_global(int block, int contacts, int freedoms) {
   FclibGlobalContent content;
   GlobalProblem& problem = content.problem;
   problem.block = block;
-  problem.title = "random", problem.description = "M is not symmetric";
   problem.mass = random_sparse(freedoms, freedoms, stream);
   problem.jacobian = random_sparse(freedoms, block * contacts, stream);
   for (int a = 0; a < freedoms; ++a) problem.f.push_back(stream.normal()), content.v.push_back(stream.normal());
@@ -237,10 +247,7 @@ FclibGlobalContent random_global(int block, int contacts, int freedoms) {
     problem.w.push_back(stream.normal());
     content.u.push_back(stream.normal()), content.r.push_back(stream.normal());
   }
-  for (int c = 0; c < contacts; ++c) {
-    problem.mu.push_back(stream.uniform(0, 1));
-    if (block == 5) problem.mu_r.push_back(stream.uniform(0, 1));
-  }
+  draw_bounds(problem, contacts, stream);
   return content;
 }
 
@@ -254,19 +261,13 @@ TEST(Fclib, GlobalProblemsReturnTheSameBits) {
     EXPECT_EQ(archive.reals.contains("fclib_global_rolling/vectors/mu_r"), block == 5);
     EXPECT_EQ(archive.reals.contains("fclib_global/vectors/f"), block != 5);
     const FclibGlobalContent back = read_fclib_global(folder.file("a.hdf5"));
-    EXPECT_EQ(back.problem.block, block);
+    expect_same_bounds_and_solution(back, content);
     EXPECT_TRUE(Eigen::MatrixXd(back.problem.mass) == Eigen::MatrixXd(content.problem.mass));
     EXPECT_TRUE(Eigen::MatrixXd(back.problem.jacobian) == Eigen::MatrixXd(content.problem.jacobian));
     EXPECT_EQ(back.problem.jacobian.nonZeros(), content.problem.jacobian.nonZeros());
     EXPECT_TRUE(same_bits(back.problem.f, content.problem.f));
     EXPECT_TRUE(same_bits(back.problem.w, content.problem.w));
-    EXPECT_TRUE(same_bits(back.problem.mu, content.problem.mu));
-    EXPECT_TRUE(same_bits(back.problem.mu_r, content.problem.mu_r));
     EXPECT_TRUE(same_bits(back.v, content.v));
-    EXPECT_TRUE(same_bits(back.u, content.u));
-    EXPECT_TRUE(same_bits(back.r, content.r));
-    EXPECT_EQ(back.problem.title, content.problem.title);
-    EXPECT_EQ(back.problem.description, content.problem.description);
     write_fclib(folder.file("b.hdf5"), back);
     EXPECT_EQ(file_bytes(folder.file("a.hdf5")), file_bytes(folder.file("b.hdf5")));
     // Reduced by reading it as a local problem.

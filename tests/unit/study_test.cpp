@@ -10,6 +10,7 @@
 
 #include "common/core/error.hpp"
 #include "common/io/scene_file.hpp"
+#include "src/studies/costs.hpp"
 #include "src/studies/registry.hpp"
 #include "src/studies/row_file.hpp"
 #include "src/studies/run_study.hpp"
@@ -231,6 +232,59 @@ TEST(Study, CostAtEqualErrorDoesNotDependOnTheLengthOfARun) {
   row.run.cpu_seconds = 40;  // four times as long, half the error
   row.run.averages.values[static_cast<int>(Observable::mu_star)].error = 0.004;
   EXPECT_DOUBLE_EQ(seconds_to_one_percent(row, Observable::mu_star), 40);
+}
+
+StudyRow cost_row(EngineKind engine, std::vector<std::pair<std::string, double>> parameters, const Estimate& friction,
+                  double seconds, Ending ending = Ending::finished) {
+  StudyRow row;
+  row.plan.engine = engine, row.plan.parameters = std::move(parameters);
+  row.run.averages.values[static_cast<int>(Observable::mu_star)] = friction;
+  row.run.cpu_seconds = seconds, row.run.ending = ending;
+  return row;
+}
+
+TEST(Study, CostOfSamplesIsThatOfTheirScatter) {
+  // Block errors of states at rest say nothing. Samples of 0.38, 0.40 and 0.42 in md, of 0.36, 0.40 and 0.44 in cd,
+  // which takes five times as long.
+  std::vector<StudyRow> rows;
+  for (const int copies : {1, 2}) {
+    rows.clear();
+    for (int copy = 0; copy < copies; ++copy)
+      for (const int seed : {0, 1, 2})
+        for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
+          const bool soft = engine == EngineKind::md;
+          rows.push_back(cost_row(engine, {{"state", 1}, {"seed", 3 * copy + seed}},
+                                  {0.4 + (soft ? 0.02 : 0.04) * (seed - 1), 1e-9}, (soft ? 1 : 5) * (1.0 + seed),
+                                  Ending::equilibrium));
+        }
+    const auto pairs = cost_pairs(tiny, rows);
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0].state, "state = 1");
+    // Squares of 5 % and 10 %, each twice in a copy; two means are known from the samples.
+    const double variance = copies * 2 * (0.0025 + 0.01) / (6 * copies - 2);
+    EXPECT_NEAR(pairs[0].md, 2 * 1e4 * variance, 1e-9 * pairs[0].md);
+    EXPECT_NEAR(pairs[0].cd, 5 * pairs[0].md, 1e-9 * pairs[0].cd);
+  }
+  // One sample at rest has no known error.
+  EXPECT_TRUE(cost_pairs(tiny, {rows[0], rows[1]}).empty());
+}
+
+TEST(Study, CostsAreComparedAtOneStiffness) {
+  const Estimate one_percent{0.4, 0.004};
+  const auto md = [&](double kappa, double seconds) {
+    return cost_row(EngineKind::md, {{"I", 0.1}, {"kappa", kappa}}, one_percent, seconds);
+  };
+  const auto pairs = cost_pairs(
+      tiny, {md(40, 1), md(1e3, 5), md(1e5, 50), cost_row(EngineKind::cd, {{"I", 0.1}, {"kappa", 40}}, one_percent, 3),
+             cost_row(EngineKind::cd, {{"I", 0.1}, {"kappa", 200}}, one_percent, 3),
+             cost_row(EngineKind::cd, {{"I", 0.1}, {"rigid", 1}}, one_percent, 4)});
+  ASSERT_EQ(pairs.size(), 2u);  // nothing of md has kappa = 200
+  EXPECT_EQ(pairs[0].state, "I = 0.1, kappa = 40");
+  EXPECT_DOUBLE_EQ(pairs[0].md, 1);
+  EXPECT_DOUBLE_EQ(pairs[0].cd, 3);
+  EXPECT_EQ(pairs[1].state, "I = 0.1, kappa = 100000 (cd: rigid)");
+  EXPECT_DOUBLE_EQ(pairs[1].md, 50);
+  EXPECT_DOUBLE_EQ(pairs[1].cd, 4);
 }
 
 }  // namespace
