@@ -184,11 +184,11 @@ class Contacts {
 
   void carry_row(const Contacts& old, const VerletList<D>& list, std::size_t row) {
     const int from = list.origin()[row];
-    // A pair apart remembers nothing.
-    if (from < 0 || !old.acts(from)) return;
-    set_state(row, old.state(from));
+    if (from < 0) return;
     const double sign = list.flipped(row) ? -1 : 1;
-    carry_result(old, from, row, sign);
+    carry_result(old, from, row, sign);  // of pairs apart too: zeros have signs
+    if (!old.acts(from)) return;
+    set_state(row, old.state(from));
     if constexpr (Y.friction) carry_memory(old, from, row, sign);
   }
 
