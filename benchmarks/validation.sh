@@ -447,3 +447,15 @@ END
   csv_table "$results/solver_starts/pile2d.csv"
   measured_on solver_starts
 fi
+if [ -f "$results/solver_bodies/solver_bodies.csv" ]; then
+  cat <<'END'
+### Matrices of bodies and of contacts
+
+`[GALET_FCLIB=FOLDER] benchmarks/run.sh solver_bodies`: single steps of sphere packings under gravity. Each method starts from the impulses of momentum at errS =
+2e-5 and has three seconds; numbers and freedoms are the rows of the matrices of contacts and of bodies (`-bodies`); iterations of the Newton methods and of
+`ipm` are factorisations (and one more each).
+
+END
+  csv_table "$results/solver_bodies/solver_bodies.csv"
+  measured_on solver_bodies
+fi
