@@ -46,7 +46,7 @@ class ConvexNewton {
       renew();
       int inner = 0;
       for (; inner < most_inner && taken < steps; ++inner) {
-        if (project() && inner > 0) break;
+        if ((project() || at_bottom_) && inner > 0) break;
         if (!step()) return false;
         ++taken;
         project();
@@ -118,7 +118,7 @@ class ConvexNewton {
     return sum;
   }
 
-  /// A Newton step of x with halving by f.
+  /// A Newton step of x with halving by f. Where f is flat to rounding the proximal step is as good as it gets.
   bool step() {
     Eigen::VectorXd right(B * problem_.size());
     for (int c = 0; c < problem_.size(); ++c) {
@@ -133,9 +133,12 @@ class ConvexNewton {
     multiply(direction, moved);
     const double slope = -product(direction, answer_), here = value(0, direction, moved);
     const double rounding = 1e-14 * std::abs(here);
-    double along = 1;
-    for (int halving = 0; halving < 16; ++halving, along *= 0.5)
-      if (value(along, direction, moved) <= here + 1e-4 * along * slope + rounding) break;
+    double along = 1, there = here;
+    for (int halving = 0; halving < 16; ++halving, along *= 0.5) {
+      there = value(along, direction, moved);
+      if (there <= here + 1e-4 * along * slope + rounding) break;
+    }
+    at_bottom_ = here - there <= rounding;
     for (int c = 0; c < problem_.size(); ++c) x_[c] += along * direction[c], motion_[c] += along * moved[c];
     return true;
   }
@@ -143,6 +146,7 @@ class ConvexNewton {
   const ScaledProblem<B>& problem_;
   Matrix& matrix_;
   double sigma_ = 100;
+  bool at_bottom_ = false;  ///< f fell by no more than its rounding in the last step
   Vectors centre_, x_, motion_, argument_, mapped_, change_, answer_;
   std::vector<double> term_;
   std::vector<Block> left_, identity_;
