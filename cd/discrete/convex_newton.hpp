@@ -45,8 +45,9 @@ class ConvexNewton {
     for (long taken = 0; taken < steps;) {
       renew();
       int inner = 0;
+      flat_ = 0;
       for (; inner < most_inner && taken < steps; ++inner) {
-        if ((project() || at_bottom_) && inner > 0) break;
+        if ((project() || flat_ > 1) && inner > 0) break;
         if (!step()) return false;
         ++taken;
         project();
@@ -118,7 +119,7 @@ class ConvexNewton {
     return sum;
   }
 
-  /// A Newton step of x with halving by f. Where f is flat to rounding the proximal step is as good as it gets.
+  /// A Newton step of x with halving by f. Two where f is flat to rounding are as good as it gets.
   bool step() {
     Eigen::VectorXd right(B * problem_.size());
     for (int c = 0; c < problem_.size(); ++c) {
@@ -132,13 +133,11 @@ class ConvexNewton {
     for (int c = 0; c < problem_.size(); ++c) direction[c] = solved.template segment<B>(B * c);
     multiply(direction, moved);
     const double slope = -product(direction, answer_), here = value(0, direction, moved);
-    const double rounding = 1e-14 * std::abs(here);
-    double along = 1, there = here;
-    for (int halving = 0; halving < 16; ++halving, along *= 0.5) {
-      there = value(along, direction, moved);
-      if (there <= here + 1e-4 * along * slope + rounding) break;
-    }
-    at_bottom_ = here - there <= rounding;
+    const double rounding = 1e-12 * std::abs(here);
+    flat_ = -slope <= rounding ? flat_ + 1 : 0;
+    double along = 1;
+    for (int halving = 0; halving < 16; ++halving, along *= 0.5)
+      if (value(along, direction, moved) <= here + 1e-4 * along * slope + rounding) break;
     for (int c = 0; c < problem_.size(); ++c) x_[c] += along * direction[c], motion_[c] += along * moved[c];
     return true;
   }
@@ -146,7 +145,7 @@ class ConvexNewton {
   const ScaledProblem<B>& problem_;
   Matrix& matrix_;
   double sigma_ = 100;
-  bool at_bottom_ = false;  ///< f fell by no more than its rounding in the last step
+  int flat_ = 0;  ///< steps in a row, all whole ones, from which f falls by less than its rounding
   Vectors centre_, x_, motion_, argument_, mapped_, change_, answer_;
   std::vector<double> term_;
   std::vector<Block> left_, identity_;
