@@ -13,6 +13,7 @@
 #   solver_sweeps    Gauss-Seidel, plain and with momentum
 #   cd_runs          whole runs of cd: time per step and contact, share of the solver, steps that missed
 #   cd_piles         the contact solver on packings under gravity, 400 to 50000 contacts, and on pile3d where GALET_FCLIB holds it
+#   solver_bodies    second-order methods on matrices of bodies and of contacts, on packings under gravity and on pile3d likewise
 #   cd_compliance    deflections of a packing under a stress increment in both engines, kappa = 1e3 to 1e6, and their cost
 #   cd_cell_inertia  plane shear with the cell's inertia a tenth to ten times the default, both engines
 #   rough_wall       plane shear between rough walls against the periodic cell at the same I, both engines (about eight minutes)
@@ -45,7 +46,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON -DGALET_OPTIMISE_BENCHMARKS=O
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify siconos_hard_cases plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles solver_bodies cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify siconos_hard_cases plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick
@@ -109,6 +110,9 @@ for name in "${names[@]}"; do
     cd_piles)
       pile=${GALET_FCLIB:+$GALET_FCLIB/pile3d.geo}
       if [ -n "$pile" ] && [ -f "$pile" ]; then "$bin/benchmarks/cd_piles" "$out" "$pile"; else "$bin/benchmarks/cd_piles" "$out"; fi ;;
+    solver_bodies)
+      pile=${GALET_FCLIB:+$GALET_FCLIB/pile3d.geo}
+      if [ -n "$pile" ] && [ -f "$pile" ]; then "$bin/benchmarks/solver_bodies" "$pile"; else "$bin/benchmarks/solver_bodies"; fi | tee "$out/solver_bodies.csv" ;;
     hertz_compression)
       for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
     lammps_peer) benchmarks/peers/lammps.sh "$out/table.csv" ;;

@@ -51,13 +51,14 @@ struct Times {
   }
 };
 
-Times times_of(const cd::DiscreteProblem& problem, const std::string& solver, double limit) {
+Times times_of(const cd::FclibContent& content, const std::string& solver, double limit) {
   cd::DiscreteOptions options;
   options.error = options.siconos_error = errors.back();
   options.seconds = limit;
   options.solver = solver;
   options.history = true;
-  const cd::DiscreteSolution solution = cd::solve(problem, options);
+  const cd::DiscreteSolution solution =
+      cd::solve(content.problem, options, content.global ? &*content.global : nullptr);
   Times times;
   for (const cd::DiscreteHistory& at : solution.history) {
     times.note(0, at.error, at.seconds);
@@ -153,14 +154,16 @@ int profile(const std::string& folder, const std::string& out, double limit) {
   std::map<std::string, std::vector<Times>> all;
   const ScratchFolder scratch;
   for (const auto& file : files) {
-    const cd::DiscreteProblem problem = cd::read_fclib(file.string()).problem;
+    const cd::FclibContent content = cd::read_fclib(file.string());
+    const cd::DiscreteProblem& problem = content.problem;
     const auto add = [&](const std::string& solver, const Times& times) {
       all[solver].resize(static_cast<std::size_t>(&file - files.data()));  // solvers that some problems have not
       all[solver].push_back(times);
       table += rows_of(file.stem().string(), problem, solver, times);
     };
     for (const std::string_view solver : cd::discrete_solvers())
-      add(std::string(solver), times_of(problem, std::string(solver), limit));
+      if (content.global || !cd::needs_bodies(solver))
+        add(std::string(solver), times_of(content, std::string(solver), limit));
     for (const std::string& solver : bench::siconos_solvers(problem.block))
       add("siconos " + dashed(solver), times_of_siconos(problem, solver, limit, scratch.path()));
     fmt::print(stderr, "{}\n", file.stem().string());

@@ -447,3 +447,16 @@ END
   csv_table "$results/solver_starts/pile2d.csv"
   measured_on solver_starts
 fi
+if [ -f "$results/solver_bodies/solver_bodies.csv" ]; then
+  cat <<'END'
+### Matrices of bodies and of contacts
+
+`[GALET_FCLIB=FOLDER] benchmarks/run.sh solver_bodies`: single steps of sphere packings under gravity. Each method starts from the impulses of momentum at errS =
+2e-5 (`ipm` from the middle of the cones) and has three seconds of processor time, or 400 steps (`ipm`: 200); numbers and freedoms are the rows of the matrices
+of contacts and of bodies (`-bodies`); an iteration of the Newton methods and of `ipm` has one factorisation. With the term of De Saxcé frozen the matrix
+of bodies goes to CHOLMOD, else all go to UMFPACK, or to a dense factorisation (contacts, up to 400 numbers). The machine was shared: times are one run's, to a factor of two.
+
+END
+  csv_table "$results/solver_bodies/solver_bodies.csv"
+  measured_on solver_bodies
+fi

@@ -96,6 +96,7 @@ class RigidEngine final : public Engine<Y.dim>, public ProblemSource {
       throw;
     }
     capture_ = nullptr;
+    problem.gap_time = theta_ * last_dt_;
     return problem;
   }
 

@@ -20,7 +20,8 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 class Reader {
  public:
   explicit Reader(const std::string& path)
-      : path_(path), archive_(read_hdf5(path, {"fclib_local", "fclib_global", "fclib_global_rolling", "solution"})) {}
+      : path_(path),
+        archive_(read_hdf5(path, {"fclib_local", "fclib_global", "fclib_global_rolling", "solution", "galet"})) {}
 
   [[noreturn]] void refuse(const std::string& message) const { throw InputError({Mistake{path_, 0, 0, message}}); }
 
@@ -204,8 +205,7 @@ GlobalProblem read_global(const Reader& reader, const std::string& form) {
   return problem;
 }
 
-DiscreteProblem reduced_of_file(const Reader& reader, const std::string& form) {
-  const GlobalProblem problem = read_global(reader, form);
+DiscreteProblem reduced_of_file(const Reader& reader, const std::string& form, const GlobalProblem& problem) {
   try {
     return reduced(problem);
   } catch (const std::invalid_argument& error) {
@@ -218,6 +218,23 @@ void read_solution(const Reader& reader, std::size_t rows, std::vector<double>& 
   if (!reader.has("solution/r")) return;
   r = reader.reals("solution/r", rows, "one for each row of W");
   u = reader.reals("solution/u", rows, "one for each row of W");
+}
+
+std::optional<FclibScale> read_scale(const Reader& reader) {
+  if (!reader.has_group("galet")) return std::nullopt;
+  const auto positive = [&](const std::string& name) {
+    const double value = reader.reals(name, 1, "a number").front();
+    if (!(value > 0 && std::isfinite(value)))
+      reader.refuse(fmt::format("dataset '{}' is {}: expected a number above 0", name, value));
+    return value;
+  };
+  return FclibScale{positive("galet/gap_time"), positive("galet/diameter")};
+}
+
+void add_scale(const std::optional<FclibScale>& scale, Archive& archive) {
+  if (!scale) return;
+  archive.reals["galet/gap_time"] = {scale->gap_time};
+  archive.reals["galet/diameter"] = {scale->diameter};
 }
 
 std::string form_of(const Reader& reader) {
@@ -263,8 +280,10 @@ FclibContent read_fclib(const std::string& path) {
     problem.title = reader.text(form + "/info/title");
     problem.description = reader.text(form + "/info/description");
   } else {
-    problem = reduced_of_file(reader, form);
+    content.global = read_global(reader, form);
+    problem = reduced_of_file(reader, form, *content.global);
   }
+  content.scale = read_scale(reader);
   read_solution(reader, problem.q.size(), content.u, content.r);
   std::vector<Mistake> mistakes;
   for (const std::string& mistake : mistakes_of(problem)) mistakes.push_back({path, 0, 0, mistake});
@@ -279,6 +298,7 @@ FclibGlobalContent read_fclib_global(const std::string& path) {
   FclibGlobalContent content;
   content.problem = read_global(reader, form);
   read_solution(reader, content.problem.w.size(), content.u, content.r);
+  content.scale = read_scale(reader);
   if (!content.r.empty()) content.v = reader.reals("solution/v", content.problem.f.size(), "one for each row of M");
   return content;
 }
@@ -302,6 +322,7 @@ void write_fclib(const std::string& path, const FclibGlobalContent& content) {
   archive.reals[form + "/vectors/w"] = problem.w;
   if (problem.block == 5) archive.reals[form + "/vectors/mu_r"] = problem.mu_r;
   add_rest(problem, form, archive);
+  add_scale(content.scale, archive);
   if (!content.r.empty()) {
     archive.reals["solution/v"] = content.v;
     archive.reals["solution/u"] = content.u, archive.reals["solution/r"] = content.r;
@@ -325,6 +346,7 @@ void write_fclib(const std::string& path, const FclibContent& content) {
   archive.reals["fclib_local/vectors/q"] = problem.q;
   if (problem.block == 5) archive.reals["fclib_local/vectors/mur"] = problem.mu_r;
   add_rest(problem, "fclib_local", archive);
+  add_scale(content.scale, archive);
   if (!content.r.empty()) archive.reals["solution/u"] = content.u, archive.reals["solution/r"] = content.r;
   write_hdf5(path, archive);
 }

@@ -6,6 +6,7 @@
 //   spacedim: numbers per contact, 2, 3 or 5 (two of them rolling, bounded by mur); normal component first
 //   info: title, description, math_info (all optional)
 //   solution: u, r; of a global problem v too
+//   galet: gap_time, diameter (ours, of steps of a scene; both or none): what a motion does to a gap, and d
 //
 // A matrix has m rows, n columns and nzmax places; nz >= 0: that many triplets (row i, column p, value x, equal places
 // are summed); nz = -1: compressed columns; nz = -2: compressed rows (p: where each begins, i: indices, x: values).
@@ -15,6 +16,7 @@
 // Source: Acary, Bremond and Huber 2018 (FCLIB).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cd/discrete/global_problem.hpp"
@@ -22,10 +24,18 @@
 
 namespace galet::cd {
 
+/// What the motions of a problem mean for gaps.
+struct FclibScale {
+  double gap_time = 0;  ///< a gap changes by this times u_N
+  double diameter = 0;  ///< d
+};
+
 /// A problem and, where the file has one, its solution (else empty).
 struct FclibContent {
   DiscreteProblem problem;
   std::vector<double> u, r;
+  std::optional<FclibScale> scale = {};
+  std::optional<GlobalProblem> global = {};  ///< as read, where the file is in global form; never written
 };
 
 /// Throws InputError with the file, the dataset and what was expected of it. What it returns has no mistakes_of.
@@ -40,6 +50,7 @@ void write_fclib(const std::string& path, const FclibContent& content);
 struct FclibGlobalContent {
   GlobalProblem problem;
   std::vector<double> v, u, r;
+  std::optional<FclibScale> scale = {};
 };
 
 /// As it stands in the file, not reduced. Throws InputError as read_fclib does, and for files in local form.

@@ -7,19 +7,20 @@
 //   c = -z + sigma nu x^-1 - correction,   dz = c - G L dr      (Mehrotra's predictor and corrector).
 // |z_T| is not smoothed: a smoothed norm floors the error at 1e-6. Reaches high accuracy in few steps on small and
 // hyperstatic problems; jams on large frictional piles.
-// Sources: Mehrotra 1992; Acary, Armand and Nguyen 2023. Cost per step: one factorisation of W + block diagonal.
+// Sources: Mehrotra 1992; Acary, Armand and Nguyen 2023. Cost per step: one factorisation of W + block diagonal, or of
+// the bodies.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "cd/discrete/block_matrix.hpp"
 #include "cd/discrete/lorentz.hpp"
 #include "cd/discrete/monitor.hpp"
 
 namespace galet::cd {
 
-template <int B>
+/// Matrix: solves with W + E (cd/discrete/block_matrix.hpp, cd/discrete/body_matrix.hpp).
+template <int B, class Matrix>
 class InteriorPoint {
  public:
   static constexpr int M = B == 2 ? 2 : 3;      ///< numbers of a cone
@@ -28,9 +29,9 @@ class InteriorPoint {
   using Block = typename ScaledProblem<B>::Block;
   using Point = typename Lorentz<M>::Vector;
 
-  explicit InteriorPoint(const ScaledProblem<B>& problem)
+  InteriorPoint(const ScaledProblem<B>& problem, Matrix& matrix)
       : problem_(problem),
-        matrix_(problem),
+        matrix_(matrix),
         r_(problem.size()),
         added_(problem.size()),
         cones_(pairs * problem.size()) {}
@@ -174,7 +175,7 @@ class InteriorPoint {
   }
 
   const ScaledProblem<B>& problem_;
-  BlockMatrix<B> matrix_;
+  Matrix& matrix_;
   std::vector<Vector> r_;
   std::vector<Block> added_;
   std::vector<ConePair> cones_;

@@ -2,27 +2,28 @@
 //   r = P_K(r_k - sigma u^(r)),   u^ = W r + q + (mu |u_T| + mu_R |u_R|) e_N
 // is found by Newton's method with a line search, then r_k moves there. The proximal term keeps the Newton matrix
 // I + sigma P' T W (T: derivative of u^ by u) regular where W is singular; a large sigma makes few outer steps.
-// Sources: Rockafellar 1976; Alart and Curnier 1991. Cost per step: one factorisation of the size of W.
+// Sources: Rockafellar 1976; Alart and Curnier 1991. Cost per step: one factorisation, of the size of W or of the
+// bodies.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "cd/discrete/block_matrix.hpp"
 #include "cd/discrete/monitor.hpp"
 
 namespace galet::cd {
 
-template <int B>
+/// Matrix: solves with D W + A (cd/discrete/block_matrix.hpp, cd/discrete/body_matrix.hpp).
+template <int B, class Matrix>
 class ProximalNewton {
  public:
   using Vector = typename ScaledProblem<B>::Vector;
   using Block = typename ScaledProblem<B>::Block;
 
-  ProximalNewton(const ScaledProblem<B>& problem, std::vector<Vector> start)
+  ProximalNewton(const ScaledProblem<B>& problem, Matrix& matrix, std::vector<Vector> start)
       : problem_(problem),
-        matrix_(problem),
+        matrix_(matrix),
         centre_(start),
         r_(std::move(start)),
         tried_(r_.size()),
@@ -99,7 +100,7 @@ class ProximalNewton {
   }
 
   const ScaledProblem<B>& problem_;
-  BlockMatrix<B> matrix_;
+  Matrix& matrix_;
   double sigma_ = 100;
   std::vector<Vector> centre_, r_, tried_, mapped_, argument_, motion_;
   std::vector<Block> left_, identity_;

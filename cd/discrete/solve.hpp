@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cd/discrete/global_problem.hpp"
 #include "cd/discrete/problem.hpp"
 
 namespace galet::cd {
@@ -46,8 +47,14 @@ struct DiscreteSolution {
 /// Names that `DiscreteOptions::solver` accepts, "auto" first.
 std::vector<std::string_view> discrete_solvers();
 
-/// Never worse than its best iterate. Throws std::invalid_argument where mistakes_of(problem) is not empty or the
-/// solver is unknown.
-DiscreteSolution solve(const DiscreteProblem& problem, const DiscreteOptions& options);
+/// Whether this solver factorises matrices of the bodies (cd/discrete/body_matrix.hpp) and needs to be given them.
+bool needs_bodies(std::string_view solver);
+
+/// Never worse than its best iterate. `bodies`: the global form of the same problem, where it is known; "auto" then
+/// factorises whichever form is smaller. Answers are measured with W alone, so that bodies of another problem could
+/// only spoil directions. Throws std::invalid_argument where mistakes_of(problem) is not empty, the solver is unknown
+/// or needs bodies that are not given, or their sizes are not those of the problem.
+DiscreteSolution solve(const DiscreteProblem& problem, const DiscreteOptions& options,
+                       const GlobalProblem* bodies = nullptr);
 
 }  // namespace galet::cd

@@ -21,6 +21,7 @@ struct StepProblem {
   std::vector<double> r = {};    ///< the engine's impulses, right to its tolerance
   std::vector<double> u = {};    ///< W r + q
   std::vector<double> v = {};    ///< in the global form: M^-1 (H r + f)
+  double gap_time = 0;           ///< a gap changes by this times u_N in the step (theta times its length)
 };
 
 /// What an engine that solves contact problems can show of them.

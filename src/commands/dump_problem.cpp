@@ -40,12 +40,13 @@ int dump_problem(Simulation<D>& simulation, const DumpRequest& request, const Ru
       request.step, engine.time(), engine.dt(),
       global ? "v: velocities of bodies, cell modes and elastic contacts" : "q: velocities",
       simulation.scene().cd.tolerance);
+  const cd::FclibScale scale{step.gap_time, simulation.derived().grains.mean_diameter};
   if (global) {
-    cd::write_fclib(request.file, cd::FclibGlobalContent{step.global, step.v, step.u, step.r});
+    cd::write_fclib(request.file, cd::FclibGlobalContent{step.global, step.v, step.u, step.r, scale});
     fmt::print("{}: {} contacts of {} numbers, {} freedoms, {} entries of H\n", request.file, step.global.mu.size(),
                step.global.block, step.global.mass.rows(), step.global.jacobian.nonZeros());
   } else {
-    cd::write_fclib(request.file, cd::FclibContent{step.problem, step.u, step.r});
+    cd::write_fclib(request.file, cd::FclibContent{step.problem, step.u, step.r, scale});
     fmt::print("{}: {} contacts of {} numbers, {} entries of W\n", request.file, step.problem.contacts(),
                step.problem.block, step.problem.value.size());
   }

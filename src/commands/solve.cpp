@@ -29,6 +29,13 @@ struct Solved {
   std::string file;
   int contacts, block;
   cd::DiscreteSolution solution;
+  std::optional<cd::FclibScale> scale;
+
+  /// What the largest approach that is left takes from a gap in the step, in d.
+  std::optional<double> lost_gap() const {
+    if (!scale) return std::nullopt;
+    return solution.violation * scale->gap_time / scale->diameter;
+  }
 };
 
 void check_arguments(const SolveArguments& arguments) {
@@ -44,7 +51,7 @@ void check_arguments(const SolveArguments& arguments) {
 }
 
 /// All problems, so that mistakes in any of them are known before the first is solved.
-std::vector<cd::FclibContent> read_all(const std::vector<std::string>& files) {
+std::vector<cd::FclibContent> read_all(const std::vector<std::string>& files, const std::string& solver) {
   std::vector<cd::FclibContent> contents;
   std::vector<Mistake> mistakes;
   for (const std::string& file : files) {
@@ -55,17 +62,29 @@ std::vector<cd::FclibContent> read_all(const std::vector<std::string>& files) {
     }
   }
   if (!mistakes.empty()) throw InputError(mistakes);
+  for (std::size_t k = 0; k < contents.size(); ++k)
+    if (cd::needs_bodies(solver) && !contents[k].global)
+      mistakes.push_back(
+          {files[k], 0, 0,
+           fmt::format("--solver {} factorises matrices of the bodies: expected a problem in global form "
+                       "(M, H, f, w)",
+                       solver)});
+  if (!mistakes.empty()) throw InputError(mistakes);
   return contents;
 }
 
 std::string text_of(const std::vector<Solved>& all) {
-  TextTable table({"problem", "contacts", "block", "errS", "errP", "force error", "violation", "iterations", "time",
-                   "solver", "reason"});
-  for (const auto& [file, contacts, block, solution] : all)
-    table.add({file, fmt::format("{}", contacts), fmt::format("{}", block), fmt::format("{:.2e}", solution.error),
-               fmt::format("{:.2e}", solution.siconos_error), fmt::format("{:.2e}", solution.force_error),
-               fmt::format("{:.2e}", solution.violation), fmt::format("{}", solution.iterations),
+  TextTable table({"problem", "contacts", "block", "errS", "errP", "force error", "violation", "gap lost (d)",
+                   "iterations", "time", "solver", "reason"});
+  for (const Solved& solved : all) {
+    const cd::DiscreteSolution& solution = solved.solution;
+    const std::optional<double> lost = solved.lost_gap();
+    table.add({solved.file, fmt::format("{}", solved.contacts), fmt::format("{}", solved.block),
+               fmt::format("{:.2e}", solution.error), fmt::format("{:.2e}", solution.siconos_error),
+               fmt::format("{:.2e}", solution.force_error), fmt::format("{:.2e}", solution.violation),
+               lost ? fmt::format("{:.2e}", *lost) : "-", fmt::format("{}", solution.iterations),
                fmt::format("{:.3g} s", solution.seconds), solution.solver, solution.reason});
+  }
   std::string text = table.text();
   for (const Solved& solved : all)
     if (const std::vector<int>& closing = solved.solution.contradiction; !closing.empty())
@@ -87,10 +106,11 @@ std::string text_of(const std::vector<Solved>& all) {
 std::string json_of(const std::vector<Solved>& all) {
   nlohmann::ordered_json json;
   json["problems"] = nlohmann::ordered_json::array();
-  for (const auto& [file, contacts, block, solution] : all) {
-    nlohmann::ordered_json row{{"file", file},
-                               {"contacts", contacts},
-                               {"block", block},
+  for (const Solved& solved : all) {
+    const cd::DiscreteSolution& solution = solved.solution;
+    nlohmann::ordered_json row{{"file", solved.file},
+                               {"contacts", solved.contacts},
+                               {"block", solved.block},
                                {"converged", solution.converged},
                                {"reason", solution.reason},
                                {"errS", solution.error},
@@ -100,6 +120,7 @@ std::string json_of(const std::vector<Solved>& all) {
                                {"iterations", solution.iterations},
                                {"seconds", solution.seconds},
                                {"solver", solution.solver}};
+    if (const auto lost = solved.lost_gap()) row["gap_lost_in_d"] = *lost;
     if (!solution.converged) row["least_impulse"] = solution.least_impulse;
     if (!solution.contradiction.empty()) row["contradiction"] = solution.contradiction;
     for (const cd::DiscreteHistory& at : solution.history)
@@ -115,17 +136,20 @@ std::string json_of(const std::vector<Solved>& all) {
 
 int solve_problems(const SolveArguments& arguments) {
   check_arguments(arguments);
-  const std::vector<cd::FclibContent> contents = read_all(arguments.files);
+  const std::vector<cd::FclibContent> contents = read_all(arguments.files, arguments.options.solver);
   std::vector<Solved> all;
   bool converged = true;
   for (std::size_t k = 0; k < contents.size(); ++k) {
-    const cd::DiscreteProblem& problem = contents[k].problem;
-    all.push_back({arguments.files[k], problem.contacts(), problem.block, cd::solve(problem, arguments.options)});
+    const cd::FclibContent& content = contents[k];
+    const cd::DiscreteProblem& problem = content.problem;
+    const cd::GlobalProblem* bodies = content.global ? &*content.global : nullptr;
+    all.push_back({arguments.files[k], problem.contacts(), problem.block, cd::solve(problem, arguments.options, bodies),
+                   content.scale});
     converged = converged && all.back().solution.converged;
   }
   fmt::print("{}\n", arguments.json ? json_of(all) : text_of(all));
   if (!arguments.output.empty())
-    cd::write_fclib(arguments.output, {contents[0].problem, all[0].solution.u, all[0].solution.r});
+    cd::write_fclib(arguments.output, {contents[0].problem, all[0].solution.u, all[0].solution.r, contents[0].scale});
   if (!converged) fmt::print(stderr, "galet: not every problem was solved to --error {:g}\n", arguments.options.error);
   return converged ? 0 : 1;
 }

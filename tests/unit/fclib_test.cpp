@@ -86,6 +86,27 @@ TEST(Fclib, ReturnsTheSameBits) {
   }
 }
 
+TEST(Fclib, WhatMotionsMeanForGapsIsKept) {
+  const TemporaryFolder folder;
+  FclibContent content = random_content(3, 4, 20);
+  write_fclib(folder.file("a.hdf5"), content);
+  EXPECT_FALSE(read_fclib(folder.file("a.hdf5")).scale);
+  content.scale = FclibScale{0.3, 1.7};
+  write_fclib(folder.file("b.hdf5"), content);
+  const std::optional<FclibScale> back = read_fclib(folder.file("b.hdf5")).scale;
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->gap_time, 0.3);
+  EXPECT_EQ(back->diameter, 1.7);
+  content.scale->diameter = 0;
+  write_fclib(folder.file("c.hdf5"), content);
+  try {
+    read_fclib(folder.file("c.hdf5"));
+    FAIL() << "a diameter of zero was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("galet/diameter"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Fclib, NoContactsAndNoSolution) {
   const TemporaryFolder folder;
   FclibContent content;
