@@ -21,11 +21,11 @@ constexpr std::size_t step_bytes_per_pair() {
 }
 
 static_assert(step_bytes_per_grain<Layout{2, false}>() <= 164 && step_bytes_per_pair<Layout{2, false}>() <= 32);
-static_assert(step_bytes_per_grain<Layout{2, true}>() <= 228 && step_bytes_per_pair<Layout{2, true}>() <= 64);
+static_assert(step_bytes_per_grain<Layout{2, true}>() <= 228 && step_bytes_per_pair<Layout{2, true}>() <= 56);
 static_assert(step_bytes_per_grain<Layout{3, false}>() <= 164 && step_bytes_per_pair<Layout{3, false}>() <= 48);
-static_assert(step_bytes_per_grain<Layout{3, true}>() <= 260 && step_bytes_per_pair<Layout{3, true}>() <= 136);
+static_assert(step_bytes_per_grain<Layout{3, true}>() <= 260 && step_bytes_per_pair<Layout{3, true}>() <= 88);
 static_assert(step_bytes_per_grain<Layout{3, true, true}>() <= 292 &&
-              step_bytes_per_pair<Layout{3, true, true}>() <= 224);
+              step_bytes_per_pair<Layout{3, true, true}>() <= 152);
 
 struct Bound {
   double per_grain, per_pair;  ///< bytes
