@@ -4,14 +4,19 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "common/core/column.hpp"
 #include "common/core/error.hpp"
 #include "common/engine/bodies.hpp"
 #include "common/geometry/contact_frame.hpp"
 #include "common/neighbour/verlet_list.hpp"
+#include "common/scene/derive.hpp"
+#include "common/scene/pair_law.hpp"
+#include "common/scene/scene.hpp"
 #include "md/contacts.hpp"
 
 namespace galet::md {
