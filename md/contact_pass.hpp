@@ -128,7 +128,8 @@ class ContactPass {
     view.out = contacts.out();
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) view.gradient[D * a + b] = seen.gradient(a, b);
-    view.deforming = !seen.gradient.isZero(0);
+    for (int b = 0; b < D; ++b)
+      if (!seen.gradient.col(b).isZero(0)) view.columns_used |= 1u << b;
     view.virial = law.virial;
     view.stepping = law.half_before > 0;
     view.half_before = law.half_before, view.half_after = law.half_after;

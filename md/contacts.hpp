@@ -129,7 +129,7 @@ class Contacts {
   }
 
   /// Rows of each grain, see GrainView.
-  const int* slots() const { return slots_.data(); }
+  const std::uint32_t* slots() const { return slots_.data(); }
 
   /// Without `listed`: the list counts its pairs.
   MemoryUse memory() const { return {bytes_of(slots_), bytes_of(blocks_, constants_, columns_, out_, plane_rows_), 0}; }
@@ -264,6 +264,7 @@ class Contacts {
   void list_rows(const VerletList<D>& list, int grains) {
     const PairColumns<D>& pairs = list.pairs();
     if (static_cast<std::size_t>(grains) > most_grains(Y)) throw RunError("too many grains for one sample of md");
+    if (pairs.size() > most_rows(Y)) throw RunError("too many pairs of grains for one sample of md");
     rows_ = pairs.size();
     const std::size_t blocks = (rows_ + block_rows - 1) / block_rows;
     RowBlock empty{};
@@ -287,17 +288,19 @@ class Contacts {
         block.j[k] = record_at(record);
       }
       block.shift[k] = static_cast<std::uint32_t>(shift_of(pairs.image[row]) * 4 * sizeof(double));
+      if (block.shift[k] != 0) block.imaged = 1;
     }
-    fill_slots(list, grains, static_cast<int>(blocks * block_rows));
+    fill_slots(list, grains, blocks * block_rows);
   }
 
-  void fill_slots(const VerletList<D>& list, int grains, int zero_row) {
-    refill(slots_, slots_per_grain * static_cast<std::size_t>(grains), zero_row);
+  void fill_slots(const VerletList<D>& list, int grains, std::size_t zero_row) {
+    const auto place = [](std::size_t row) { return static_cast<std::uint32_t>(row * out_size(Y) * sizeof(double)); };
+    refill(slots_, slots_per_grain * static_cast<std::size_t>(grains), place(zero_row));
     const auto first = list.first(), second = list.second(), rows_of_second = list.rows_of_second();
     for (int i = 0; i < grains; ++i) {
-      int* slot = slots_.data() + slots_per_grain * static_cast<std::size_t>(i);
-      for (int k = 0; k < 4 && second[i] + k < second[i + 1]; ++k) slot[k] = rows_of_second[second[i] + k];
-      for (int k = 0; k < 4 && first[i] + k < first[i + 1]; ++k) slot[4 + k] = first[i] + k;
+      std::uint32_t* slot = slots_.data() + slots_per_grain * static_cast<std::size_t>(i);
+      for (int k = 0; k < 4 && second[i] + k < second[i + 1]; ++k) slot[k] = place(rows_of_second[second[i] + k]);
+      for (int k = 0; k < 4 && first[i] + k < first[i + 1]; ++k) slot[4 + k] = place(first[i] + k);
       slot[8] = second[i + 1] - second[i] > 4 || first[i + 1] - first[i] > 4;
     }
   }
@@ -329,7 +332,7 @@ class Contacts {
   StepArray<RowBlock> blocks_ = StepArray<RowBlock>(1);
   StepArray<RowConstants> constants_;
   StepArray<Line> columns_, out_;
-  StepArray<int> slots_;
+  StepArray<std::uint32_t> slots_;
   std::vector<PlaneRow> plane_rows_;
   std::vector<Image<D>> images_ = std::vector<Image<D>>(1);
 };

@@ -96,9 +96,11 @@ class GrainPass {
     double column[3][4] = {};
   };
 
-  static void fill(double (&columns)[3][4], const Mat<D>& matrix) {
-    for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) columns[b][a] = matrix(a, b);
+  static void fill(GrainView& view, double (&columns)[3][4], const Mat<D>& matrix) {
+    for (int b = 0; b < D; ++b) {
+      for (int a = 0; a < D; ++a) columns[b][a] = matrix(a, b);
+      if (!matrix.col(b).isZero(0)) view.columns_used |= 1u << b;
+    }
   }
 
   GrainView view_of(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen) const {
@@ -112,7 +114,7 @@ class GrainPass {
 
   static void set_gather(GrainView& view, const Bodies<Y>& bodies, const Seen<Y>& seen, const VerletList<D>& list,
                          const Contacts<Y>& contacts, double kick) {
-    fill(view.gradient, seen.gradient);
+    fill(view, view.gradient, seen.gradient);
     for (int a = 0; a < D; ++a) view.gravity[a] = bodies.gravity[a];
     view.out = contacts.out();
     view.slots = contacts.slots();
@@ -125,7 +127,8 @@ class GrainPass {
   /// Returns the map that moves the box.
   static Mat<D> set_drift(GrainView& view, const Mat<D>& gradient, double dt) {
     const CellStep<D> step(gradient, dt);
-    fill(view.deform, step.deform), fill(view.step, dt * step.advance);
+    fill(view, view.deform, step.deform - Mat<D>::Identity());
+    fill(view, view.step, dt * (step.advance - Mat<D>::Identity()));
     view.half = 0.5 * dt;
     view.deforming = !gradient.isZero(0);
     return step.deform;

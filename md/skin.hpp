@@ -3,10 +3,14 @@
 // pairs per grain and unit skin that don't touch, a displacement v per step, P pairs in the outer list and costs in
 // evaluations of a pair, the cost per grain and step is
 //   e s + c P v / s + C v / (S - s)
-// c: of looking at an outer pair and carrying it on, C: of a search. It is least for
-//   s^2 = c P v / e       and, since P grows by e S,       (S - s)^2 = C s / (c e)
-// A skin s that lasted n steps tells v = s / n. All of it depends on counts only, never on time measured, so that runs
-// are repeatable.
+// c: of looking at an outer pair and carrying it on, C: of a search. Over the outer skin it is least for
+//   (S - s)^2 = C s / (c e)
+// (P grows by e S). Of thin skins the pairs that don't touch grow less: the gaps of a dense sample pile up at zero,
+// their number about as s^a with a = 0.4 (spheres) to 1 (dilute). With E(s) of them the cost E(s) + c P v / s is least
+// where
+//   a E(s) = c P v / s = c P / n
+// for a skin s that lasts n steps; from any other one, s [c P / (a E n)]^(1 / (1 + a)) comes nearer. We take a = 1/2.
+// All of it depends on counts only, never on time measured, so that runs are repeatable.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +22,11 @@ class Skin {
  public:
   explicit Skin(double diameter) : diameter_(diameter) {}
 
-  static constexpr double least = 0.003, most = 0.2;  ///< of the mean diameter
-  static constexpr double searching_cost = 75;        ///< C
-  static constexpr double pair_cost = 3;              ///< c
-  static constexpr double narrowing_cost = 15;        ///< c P
-  static constexpr long longest_age = 250;            ///< steps after which a wide list is made anew
+  static constexpr double least = 0.0003, most = 0.2;  ///< of the mean diameter
+  static constexpr double searching_cost = 75;         ///< C
+  static constexpr double pair_cost = 3;               ///< c
+  static constexpr double narrowing_cost = 20;         ///< c P
+  static constexpr long longest_age = 250;             ///< steps after which a wide list is made anew
 
   /// Whether a list that still holds is wider than it should be.
   bool too_wide(double skin, long age) const { return age >= longest_age && skin > 3 * least * diameter_; }
@@ -34,7 +38,8 @@ class Skin {
 
   /// The next inner skin, after one that lasted `age` steps; `idle`: listed pairs per grain that don't touch.
   double next(double skin, long age, double idle) const {
-    const double wanted = std::sqrt(narrowing_cost * skin * skin / (std::max(idle, 1e-3) * std::max(age, 1L)));
+    const double steps = 2 * narrowing_cost / std::max(idle, 1e-3);  // that the best skin lasts
+    const double wanted = skin * std::cbrt(std::pow(steps / static_cast<double>(std::max(age, 1L)), 2));
     return std::clamp(std::clamp(wanted, skin / 4, 2 * skin), least * diameter_, most * diameter_);
   }
 

@@ -91,12 +91,15 @@ GALET_INLINE Four<4> everywhere(Four<4> a) {
 }
 #endif
 
-/// matrix (columns as groups) times a vector, and one more added.
+/// A matrix (columns as groups; bit k of `columns_used`: whether the k-th is not zero) times a vector, and one more
+/// added.
 template <Layout Y, int W>
-GALET_INLINE Four<W> apply(const double (&columns)[3][4], Four<W> x, Four<W> more) {
+GALET_INLINE Four<W> apply(const double (&columns)[3][4], unsigned columns_used, Four<W> x, Four<W> sum) {
   using F = Four<W>;
-  F sum = madd(F::load(columns[0]), everywhere<0>(x), madd(F::load(columns[1]), everywhere<1>(x), more));
-  if constexpr (Y.dim == 3) sum = madd(F::load(columns[2]), everywhere<2>(x), sum);
+  // The same for all grains; in simple shear two of three are zero.
+  if (Y.dim == 3 && (columns_used & 4)) sum = madd(F::load(columns[2]), everywhere<2>(x), sum);
+  if (columns_used & 2) sum = madd(F::load(columns[1]), everywhere<1>(x), sum);
+  if (columns_used & 1) sum = madd(F::load(columns[0]), everywhere<0>(x), sum);
   return sum;
 }
 

@@ -61,8 +61,9 @@ GALET_INLINE Group<Minus, 1> combine(const double* records, int group, const std
 template <unsigned Minus>
 GALET_INLINE Group<Minus, 1> combine_shifted(const PassView& view, const RowBlock& block, int lane, Lanes<1> width) {
   Group<Minus, 1> result = combine<Minus>(view.records, 0, block.i + lane, block.j + lane, width);
-  for (int k = 0; k < 4; ++k)
-    result.component[k] = result.component[k] + Lanes<1>(at_bytes(view.shifts, block.shift[lane])[k]);
+  if (block.imaged)
+    for (int k = 0; k < 4; ++k)
+      result.component[k] = result.component[k] + Lanes<1>(at_bytes(view.shifts, block.shift[lane])[k]);
   return result;
 }
 
@@ -90,9 +91,12 @@ template <unsigned Minus>
 GALET_INLINE Group<Minus, 4> combine_shifted(const PassView& view, const RowBlock& block, int lane, Lanes<4>) {
   Group<Minus, 4> result;
   for (int k = 0; k < 4; ++k)
-    result.component[k].v = _mm256_add_pd(
-        signed_sum<Minus>(at_bytes(view.records, block.i[lane + k]), at_bytes(view.records, block.j[lane + k])),
-        _mm256_load_pd(at_bytes(view.shifts, block.shift[lane + k])));
+    result.component[k].v =
+        signed_sum<Minus>(at_bytes(view.records, block.i[lane + k]), at_bytes(view.records, block.j[lane + k]));
+  if (block.imaged)
+    for (int k = 0; k < 4; ++k)
+      result.component[k].v =
+          _mm256_add_pd(result.component[k].v, _mm256_load_pd(at_bytes(view.shifts, block.shift[lane + k])));
   transpose(result.component[0], result.component[1], result.component[2], result.component[3]);
   return result;
 }
@@ -133,31 +137,39 @@ GALET_INLINE Group<Minus, 8> combine(const double* records, int group, const std
 template <unsigned Minus>
 GALET_INLINE Group<Minus, 8> combine_shifted(const PassView& view, const RowBlock& block, int, Lanes<8>) {
   Group<Minus, 8> result;
-  for (int k = 0; k < 4; ++k) {
-    const int a = row_in_half(k, 0), b = row_in_half(k, 1);
-    const auto both = [&](const double* base, const std::uint32_t* of) {
-      return two_fours(at_bytes(base, of[a]), at_bytes(base, of[b]));
-    };
-    result.component[k].v = _mm512_add_pd(signed_sum<Minus>(both(view.records, block.i), both(view.records, block.j)),
-                                          both(view.shifts, block.shift));
-  }
+  const auto both = [](const double* base, const std::uint32_t* of, int k) {
+    return two_fours(at_bytes(base, of[row_in_half(k, 0)]), at_bytes(base, of[row_in_half(k, 1)]));
+  };
+  for (int k = 0; k < 4; ++k)
+    result.component[k].v = signed_sum<Minus>(both(view.records, block.i, k), both(view.records, block.j, k));
+  if (block.imaged)
+    for (int k = 0; k < 4; ++k)
+      result.component[k].v = _mm512_add_pd(result.component[k].v, both(view.shifts, block.shift, k));
   columns_of_eight(result.component[0], result.component[1], result.component[2], result.component[3]);
   return result;
 }
 
 #endif
 
-/// gradient x + y.
+/// L x + y; most flows need one column of L.
 template <class V>
-GALET_INLINE Plane2<V> affine(const double* gradient, const Plane2<V>& x, const Plane2<V>& y) {
-  return {madd(V(gradient[0]), x.x, madd(V(gradient[1]), x.y, y.x)),
-          madd(V(gradient[2]), x.x, madd(V(gradient[3]), x.y, y.y))};
+GALET_INLINE Plane2<V> affine(const PassView& view, const Plane2<V>& x, Plane2<V> y) {
+  const double* gradient = view.gradient;
+  if (view.columns_used & 1) y = {madd(V(gradient[0]), x.x, y.x), madd(V(gradient[2]), x.x, y.y)};
+  if (view.columns_used & 2) y = {madd(V(gradient[1]), x.y, y.x), madd(V(gradient[3]), x.y, y.y)};
+  return y;
 }
 template <class V>
-GALET_INLINE Space<V> affine(const double* gradient, const Space<V>& x, const Space<V>& y) {
-  return {madd(V(gradient[0]), x.x, madd(V(gradient[1]), x.y, madd(V(gradient[2]), x.z, y.x))),
-          madd(V(gradient[3]), x.x, madd(V(gradient[4]), x.y, madd(V(gradient[5]), x.z, y.y))),
-          madd(V(gradient[6]), x.x, madd(V(gradient[7]), x.y, madd(V(gradient[8]), x.z, y.z)))};
+GALET_INLINE Space<V> affine(const PassView& view, const Space<V>& x, Space<V> y) {
+  const double* gradient = view.gradient;
+  const auto add_column = [&](int column, V component) __attribute__((always_inline)) {
+    y = {madd(V(gradient[column]), component, y.x), madd(V(gradient[3 + column]), component, y.y),
+         madd(V(gradient[6 + column]), component, y.z)};
+  };
+  if (view.columns_used & 1) add_column(0, x.x);
+  if (view.columns_used & 2) add_column(1, x.y);
+  if (view.columns_used & 4) add_column(2, x.z);
+  return y;
 }
 
 /// `lane`: the first of the W rows in the block.
@@ -207,7 +219,7 @@ GALET_INLINE Motion<Y, W> motion_of(const PassView& view, const RowBlock& block,
       result.relative = {spins.component[0], spins.component[1], spins.component[2]};
     }
   }
-  if (view.deforming) result.centres = affine(view.gradient, place.distance * place.normal, result.centres);
+  if (view.columns_used != 0) result.centres = affine(view, place.distance * place.normal, result.centres);
   return result;
 }
 

@@ -46,7 +46,8 @@ class Grains {
       now.acceleration = madd(second - first, F::all(state[S::inverse_mass]), gravity_);
     }
     if (view_.deforming)
-      now.acceleration = now.acceleration - apply<Y, W>(view_.gradient, seen_velocity<Y, W>(record), F::zero());
+      now.acceleration =
+          now.acceleration - apply<Y, W>(view_.gradient, view_.columns_used, seen_velocity<Y, W>(record), F::zero());
     now.velocity = madd(kick_, now.acceleration, velocity);
     if constexpr (Y.friction && Y.dim == 3) {
       F second, first;
@@ -118,8 +119,11 @@ class Grains {
     const F mid = madd(half_, now.acceleration, now.velocity), seen = madd(half_, expected, mid);
     keep_constants(mid, state + S::velocity);
     const F place = F::load(record);
-    const F moved = view_.deforming ? apply<Y, W>(view_.deform, place, apply<Y, W>(view_.step, mid, F::zero()))
-                                    : madd(whole_, mid, place);
+    F moved = madd(whole_, mid, place);
+    if (view_.deforming) {
+      moved = apply<Y, W>(view_.step, view_.columns_used, mid, moved);
+      moved = apply<Y, W>(view_.deform, view_.columns_used, place, moved);
+    }
     if constexpr (Y.dim == 2) {
       first_pairs(moved, seen).store(record);
       // R w, w
@@ -140,14 +144,15 @@ class Grains {
   /// Sum of four components of the rows of a grain: as second member, and as first. Four of each come in fixed slots.
   /// (In 3D the fourth belongs to something else: of no use.)
   GALET_INLINE void add_rows(std::size_t grain, int component, F& second, F& first) const {
-    const int* slot = view_.slots + slots_per_grain * grain;
+    const std::uint32_t* slot = view_.slots + slots_per_grain * grain;
     const double* out = view_.out + component;
-    const auto row = [&](int k) {
-      const double* from = out + static_cast<std::size_t>(static_cast<unsigned>(k)) * out_size(Y);
-      return out_size(Y) == 2 ? F::load_pair(from) : F::load_any(from);
+    const auto load = [](const double* from) { return out_size(Y) == 2 ? F::load_pair(from) : F::load_any(from); };
+    const auto at = [&](std::uint32_t bytes) {
+      return load(reinterpret_cast<const double*>(reinterpret_cast<const char*>(out) + bytes));
     };
-    second = (row(slot[0]) + row(slot[1])) + (row(slot[2]) + row(slot[3]));
-    first = (row(slot[4]) + row(slot[5])) + (row(slot[6]) + row(slot[7]));
+    const auto row = [&](int k) { return load(out + static_cast<std::ptrdiff_t>(k) * out_size(Y)); };
+    second = (at(slot[0]) + at(slot[1])) + (at(slot[2]) + at(slot[3]));
+    first = (at(slot[4]) + at(slot[5])) + (at(slot[6]) + at(slot[7]));
     if (__builtin_expect(slot[8] != 0, 0)) {
       for (int k = view_.second[grain] + 4; k < view_.second[grain + 1]; ++k)
         second = second + row(view_.rows_of_second[k]);

@@ -95,9 +95,9 @@ class Rows {
         half_before_(view.half_before),
         half_after_(view.half_after),
         common_(same_terms<W>(view.terms[0])) {
+    overshoot_ = V(view.half_before > 0 ? (view.half_before + view.half_after) / view.half_before : 1.0);
     if constexpr (!K.general && !K.hertz) {
       const V stiffness(view.constants->coefficient[0]);  // the same for all rows
-      inverse_before_ = V(1.0) / half_before_;
       softness_ = V(1.0) / (common_.tangential_ratio * stiffness);
       rolling_softness_ = V(1.0) / (common_.rolling_stiffness * stiffness);
       pivoting_softness_ = V(1.0) / (common_.pivoting_stiffness * stiffness);
@@ -135,50 +135,29 @@ class Rows {
   GALET_INLINE void evaluate(const Pair& at, std::size_t index, int lane) {
     RowBlock& block = view_.blocks[index];
     const RowConstants& constants = view_.constants[index * view_.constants_stride];
-    double* columns = columns_of(index, lane);
-    double* out = view_.out + (index * block_rows + lane) * out_size(Y);
     const PairTerms<V> terms = K.general && view_.laws > 1 ? terms_of_rows<W>(view_, block, lane) : common_;
-    const V deflection = V::load(constants.reach + lane) - at.distance;
-    const M touching = V(0.0) < deflection;
-    const V depth = max(deflection, V(0.0)), opening = at.opening;
     const V coefficient = V::load(constants.coefficient + lane), critical = V::load(constants.critical + lane);
-    const NormalForce<V> normal = normal_force<K>(view_.kind, terms, coefficient, critical, depth, opening);
-    V along = only(touching, normal.force);
-    unsigned crossing = note_states(block, lane, touching, &RowBlock::touching);
-    if (!view_.stepping) crossing = 0;
-    Crossing cross{};
-    if (__builtin_expect(crossing, 0)) {
-      cross = cross_over(touching, crossing, terms, coefficient, critical, deflection, opening, normal.bound, at.normal,
-                         out);
-      along = select(cross.crosses, along + cross.normal, along);
-    }
-    if (K.general && view_.range > 0) {
-      const M attracted = without((V(0.0) - deflection) < terms.range, touching);
-      along = select(attracted, along + distant_force(terms, V(0.0) - deflection), along);
-      note_states(block, lane, attracted, &RowBlock::attracted);
-    }
+    Law law{terms, V::load(constants.reach + lane) - at.distance, {}, {}, {}, {}};
+    law.touching = V(0.0) < law.deflection;
+    law.depth = max(law.deflection, V(0.0));
+    law.normal = normal_force<K>(view_.kind, terms, coefficient, critical, law.depth, at.opening);
+    law.along = only(law.touching, law.normal.force);
+    const unsigned crossing = note_states(block, lane, law.touching, &RowBlock::touching);
     if constexpr (K.account) {
       // The conservative part is what is left without damping.
-      const V conservative = normal_force<K>(view_.kind, terms, coefficient, V(0.0), depth, V(0.0)).force;
-      add_lanes(sums_.normal_viscous, lane, only(touching, (conservative - normal.force) * opening) + cross.viscous);
+      const V conservative = normal_force<K>(view_.kind, terms, coefficient, V(0.0), law.depth, V(0.0)).force;
+      add_lanes(sums_.normal_viscous, lane, only(law.touching, (conservative - law.normal.force) * at.opening));
     }
-    Vector force = along * at.normal;
-    if constexpr (Y.friction) {
-      const Ahead ahead = look_ahead(normal, depth, opening);
-      const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
-      Spin torque{};
-      if constexpr (Y.rolling) {
-        torque = roll(at, normal, ahead, terms, columns, lane, touching, stiffness_before, cross, block);
-        if (__builtin_expect(cross.any, 0)) torque = select(cross.ends, cross.torque, torque);
-      }
-      slide(at, normal, ahead, terms, columns, lane, touching, stiffness_before, force, torque, cross, block, out);
-      if (varying()) only(touching, normal.stiffness).store(columns + C::stiffness * block_rows);
-    } else if constexpr (Y.dim == 2) {
-      write_two(out, out_size(Y), force.x, force.y);
+    double* out = view_.out + (index * block_rows + lane) * out_size(Y);
+    // Two copies of what follows: few blocks have a crossing, and the others shouldn't carry what it needs.
+    if (__builtin_expect(crossing && view_.stepping, 0)) {
+      const Crossing cross = cross_over(law, crossing, coefficient, critical, at, out);
+      law.along = select(cross.crosses, law.along + cross.normal, law.along);
+      if constexpr (K.account) add_lanes(sums_.normal_viscous, lane, cross.viscous);
+      apply(at, law, cross, block, index, lane, out);
     } else {
-      write_four(out, out_size(Y), force.x, force.y, force.z, V(0.0));
+      apply(at, law, NoCrossing{}, block, index, lane, out);
     }
-    if (view_.virial) add_virial(force, at.distance * at.normal, lane);
   }
 
  private:
@@ -186,27 +165,35 @@ class Rows {
     return view_.columns + index * view_.column_count * block_rows + lane;
   }
 
-  /// What the springs' limits and stiffness will be half a step ahead, by the present opening velocity.
-  struct Ahead {
-    V bound, softening;
+  /// What the laws of W rows have in common.
+  struct Law {
+    PairTerms<V> terms;
+    V deflection;
+    M touching;
+    V depth;  ///< deflection, not negative
+    NormalForce<V> normal;
+    V along;  ///< F_N, with what crossings add
   };
 
+  struct NoCrossing {
+    static constexpr bool any = false;
+  };
   /// Contacts that have begun or ended since the last step (laws/crossing.hpp).
   struct Crossing : Crossings<V> {
-    bool any;
+    static constexpr bool any = true;
     M crosses, begins, ends;
     Vector sliding;  ///< end: tangential force (with the present normal, so that angular momentum is conserved)
     Spin torque;     ///< end: rolling and pivoting torque
   };
 
-  GALET_INLINE Crossing cross_over(M touching, unsigned crossing, const PairTerms<V>& terms, V coefficient, V critical,
-                                   V deflection, V opening, V bound, const Vector& normal, const double* out) const {
+  GALET_INLINE Crossing cross_over(const Law& law, unsigned crossing, V coefficient, V critical, const Pair& at,
+                                   const double* out) const {
     Crossing result{};
-    result.any = true;
-    result.crosses = mask_of<W>(crossing), result.begins = touching & result.crosses;
-    const M ends = result.ends = without(result.crosses, touching);
-    static_cast<Crossings<V>&>(result) = crossings<V, M>(view_.kind, terms, coefficient, critical, deflection, opening,
-                                                         bound, half_before_ + half_before_, ends);
+    result.crosses = mask_of<W>(crossing), result.begins = law.touching & result.crosses;
+    const M ends = result.ends = without(result.crosses, law.touching);
+    static_cast<Crossings<V>&>(result) =
+        crossings<V, M>(view_.kind, law.terms, coefficient, critical, law.deflection, at.opening, law.normal.bound,
+                        half_before_ + half_before_, ends);
     result.viscous = only(result.crosses, result.viscous);
     const V share = only(ends, result.last);
     const auto last = [&](int component) {
@@ -219,17 +206,46 @@ class Rows {
       force = {last(0), last(1)};
     else
       force = {last(0), last(1), last(2)};
-    const V along = dot(force, normal);
+    const V along = dot(force, at.normal);
     result.normal = result.normal + along;
     if constexpr (Y.friction) {
       // What the turn of the normal has put into the tangential part is no friction: Coulomb's bound takes it out.
-      const Vector tangential = force - along * normal;
-      const V most = terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
+      const Vector tangential = force - along * at.normal;
+      const V most = law.terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
       result.sliding = min(max(most, -most) / max(length, V(1e-300)), V(1.0)) * tangential;
     }
     if constexpr (Y.rolling && Y.dim == 2) result.torque = last(torque_place(Y));
     if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(6), last(7), last(8)};
     return result;
+  }
+
+  /// Forces and torques: writes the rows of `out` and what the springs remember.
+  template <class Cross>
+  GALET_INLINE void apply(const Pair& at, Law& law, const Cross& cross, RowBlock& block, std::size_t index, int lane,
+                          double* out) {
+    if (K.general && view_.range > 0) {
+      const V gap = V(0.0) - law.deflection;
+      const M attracted = without(gap < law.terms.range, law.touching);
+      law.along = select(attracted, law.along + distant_force(law.terms, gap), law.along);
+      note_states(block, lane, attracted, &RowBlock::attracted);
+    }
+    Vector force = law.along * at.normal;
+    if constexpr (Y.friction) {
+      double* columns = columns_of(index, lane);
+      const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
+      Spin torque{};
+      if constexpr (Y.rolling) {
+        torque = roll(at, law, columns, lane, stiffness_before, cross, block);
+        if constexpr (Cross::any) torque = select(cross.ends, cross.torque, torque);
+      }
+      slide(at, law, columns, lane, stiffness_before, force, torque, cross, block, out);
+      if (varying()) only(law.touching, law.normal.stiffness).store(columns + C::stiffness * block_rows);
+    } else if constexpr (Y.dim == 2) {
+      write_two(out, out_size(Y), force.x, force.y);
+    } else {
+      write_four(out, out_size(Y), force.x, force.y, force.z, V(0.0));
+    }
+    if (view_.virial) add_virial(force, at.distance * at.normal, lane);
   }
 
   GALET_INLINE bool varying() const { return K.general ? view_.kind.hertz : K.hertz; }
@@ -241,10 +257,13 @@ class Rows {
     return change;
   }
 
-  GALET_INLINE Ahead look_ahead(const NormalForce<V>& normal, V depth, V opening) const {
-    const V moved = opening * half_after_;
-    Ahead ahead{max(nmadd(normal.stiffness, moved, normal.bound), V(0.0)), V(1.0)};
-    if (varying()) ahead.softening = select(V(0.0) < opening, sqrt(max(V(1.0) - moved / depth, V(0.01))), V(1.0));
+  /// The limit of a spring of that reach and the softening of the contact half a step ahead, by the present opening
+  /// velocity.
+  GALET_INLINE SpringAhead<V> look_ahead(const Pair& at, const Law& law, V reach) const {
+    const V moved = at.opening * half_after_;
+    SpringAhead<V> ahead{reach * max(nmadd(law.normal.stiffness, moved, law.normal.bound), V(0.0)), V(1.0)};
+    if (varying())
+      ahead.softening = select(V(0.0) < at.opening, sqrt(max(V(1.0) - moved / law.depth, V(0.01))), V(1.0));
     return ahead;
   }
 
@@ -289,38 +308,31 @@ class Rows {
     bool total;
   };
 
-  /// One spring, `elongation` in the present frame, until it is stored; returns its force.
-  template <class Value>
-  GALET_INLINE Value spring(double* column, Value elongation, const NormalForce<V>& normal, const Ahead& ahead,
-                            M touching, V stiffness_before, const Resistance& by, const Value& rate,
-                            const Crossing& cross, double (*sums)[block_rows], int lane, std::uint8_t& slid) {
+  /// One spring of the rows in `touching`, `elongation` in the present frame, until it is stored; returns its force.
+  template <class Value, class Cross>
+  GALET_INLINE Value spring(const Pair& at, const Law& law, double* column, Value elongation, M touching,
+                            V stiffness_before, const Resistance& by, const Value& rate, const Cross& cross,
+                            double (*sums)[block_rows], int lane, std::uint8_t& slid) {
+    const V stiffness = by.ratio * law.normal.stiffness;
     Losses<V> losses;
     const Value before = load(column, Value{});
     if (varying())
-      adapt_spring<K>(by.ratio * stiffness_before, by.ratio * normal.stiffness, half_before_ + half_after_, elongation,
-                      losses);
-    if (__builtin_expect(cross.any, 0)) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
-    const SpringTerms<V> law{by.ratio * normal.stiffness,
-                             by.reach * normal.bound,
-                             by.reach * ahead.bound,
-                             ahead.softening,
-                             by.viscosity,
-                             by.total,
-                             half_before_,
-                             half_after_,
-                             by.softness,
-                             inverse_before_};
+      adapt_spring<K>(by.ratio * stiffness_before, stiffness, half_before_ + half_after_, elongation, losses);
+    if constexpr (Cross::any) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
+    const SpringTerms<V> terms{
+        stiffness, by.reach * law.normal.bound, by.viscosity, by.total, half_before_, half_after_, by.softness,
+        overshoot_};
+    const auto ahead = [&]() __attribute__((always_inline)) { return look_ahead(at, law, by.reach); };
     Losses<V> sliding;
     M slides;
     const unsigned guess = slid >> lane & ((1u << W) - 1);
-    Value force = spring_force<K>(touching, law, rate, elongation, guess, slides, sliding);
+    Value force = spring_force<K>(touching, terms, ahead, rate, elongation, guess, slides, sliding);
     if (const unsigned now = bits(slides); __builtin_expect(now != guess, 0))
       slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
-    if (__builtin_expect(cross.any, 0)) force = begun(cross, slides, force, by.viscosity, rate, sliding);
+    if constexpr (Cross::any) force = begun(cross, slides, force, by.viscosity, rate, sliding);
     if constexpr (K.account) {
       losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
-      const V stiffness = varying() ? stiffness_before : normal.stiffness;
-      elongation = kept(touching, before, elongation, by.ratio * stiffness, losses);
+      elongation = kept(touching, before, elongation, varying() ? by.ratio * stiffness_before : stiffness, losses);
       note_losses(touching, losses, sums, lane);
     } else {
       elongation = only(touching, elongation);
@@ -346,23 +358,22 @@ class Rows {
     return select(cross.begins, corrected, force);
   }
 
-  GALET_INLINE void slide(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
-                          double* columns, int lane, M touching, V stiffness_before, Vector& force, const Spin& torque,
-                          const Crossing& cross, RowBlock& block, double* out) {
+  template <class Cross>
+  GALET_INLINE void slide(const Pair& at, const Law& law, double* columns, int lane, V stiffness_before, Vector& force,
+                          const Spin& torque, const Cross& cross, RowBlock& block, double* out) {
     double* column = columns + C::spring * block_rows;
-    const Resistance sliding{terms.tangential_ratio, softness_, terms.friction,
-                             terms.tangential_viscosity * normal.critical, view_.kind.total};
+    const Resistance by{law.terms.tangential_ratio, softness_, law.terms.friction,
+                        law.terms.tangential_viscosity * law.normal.critical, view_.kind.total};
+    Spin resisting = spring(at, law, column, at.spring, law.touching, stiffness_before, by, at.rate, cross,
+                            sums_.sliding, lane, block.sliding[0]);
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent = tangent_of(at.normal);
-      V tangential = -spring<V>(column, at.spring, normal, ahead, touching, stiffness_before, sliding, at.rate, cross,
-                                sums_.sliding, lane, block.sliding[0]);
-      if (__builtin_expect(cross.any, 0)) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
+      V tangential = -resisting;
+      if constexpr (Cross::any) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
       write_four(out, out_size(Y), force.x, force.y, at.stretch * tangential, torque);
     } else {
-      Space<V> resisting = spring<Space<V>>(column, at.spring, normal, ahead, touching, stiffness_before, sliding,
-                                            at.rate, cross, sums_.sliding, lane, block.sliding[0]);
-      if (__builtin_expect(cross.any, 0)) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
+      if constexpr (Cross::any) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
       const Space<V> twist = galet::md::cross(resisting, at.stretch * at.normal);
       write_four(out, out_size(Y), force.x, force.y, force.z, twist.x);
@@ -376,27 +387,27 @@ class Rows {
   }
 
   /// Rolling and pivoting torque on j, from the relative rotation w_j - w_i.
-  GALET_INLINE Spin roll(const Pair& at, const NormalForce<V>& normal, const Ahead& ahead, const PairTerms<V>& terms,
-                         double* columns, int lane, M touching, V stiffness_before, const Crossing& cross,
-                         RowBlock& block) {
+  template <class Cross>
+  GALET_INLINE Spin roll(const Pair& at, const Law& law, double* columns, int lane, V stiffness_before,
+                         const Cross& cross, RowBlock& block) {
     double* column = columns + C::rolling * block_rows;
-    const M rolls = touching & (V(0.0) < terms.rolling_friction);
+    const M rolls = law.touching & (V(0.0) < law.terms.rolling_friction);
+    const Resistance by{law.terms.rolling_stiffness, rolling_softness_, law.terms.rolling_friction, V(0.0), false};
+    const Spin elongation = transported<Spin>(column, at);
     if constexpr (Y.dim == 2) {
-      return -spring<V>(column, transported<V>(column, at), normal, ahead, rolls, stiffness_before,
-                        Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
-                        at.relative, cross, sums_.rolling, lane, block.sliding[1]);
+      return -spring(at, law, column, elongation, rolls, stiffness_before, by, at.relative, cross, sums_.rolling, lane,
+                     block.sliding[1]);
     } else {
       const V about = dot(at.relative, at.normal);
-      const Space<V> rolling = spring<Space<V>>(
-          column, transported<Space<V>>(column, at), normal, ahead, rolls, stiffness_before,
-          Resistance{terms.rolling_stiffness, rolling_softness_, terms.rolling_friction, V(0.0), false},
-          nmadd(about, at.normal, at.relative), cross, sums_.rolling, lane, block.sliding[1]);
+      const Space<V> rate = nmadd(about, at.normal, at.relative);
+      const Space<V> rolling = spring(at, law, column, elongation, rolls, stiffness_before, by, rate, cross,
+                                      sums_.rolling, lane, block.sliding[1]);
       double* turns = columns + C::pivoting * block_rows;
-      const M pivots = touching & (V(0.0) < terms.pivoting_friction);
-      const V pivoting =
-          spring<V>(turns, load(turns, V{}), normal, ahead, pivots, stiffness_before,
-                    Resistance{terms.pivoting_stiffness, pivoting_softness_, terms.pivoting_friction, V(0.0), false},
-                    about, cross, sums_.pivoting, lane, block.sliding[2]);
+      const M pivots = law.touching & (V(0.0) < law.terms.pivoting_friction);
+      const Resistance pivot{law.terms.pivoting_stiffness, pivoting_softness_, law.terms.pivoting_friction, V(0.0),
+                             false};
+      const V pivoting = spring(at, law, turns, load(turns, V{}), pivots, stiffness_before, pivot, about, cross,
+                                sums_.pivoting, lane, block.sliding[2]);
       return V(-1.0) * madd(pivoting, at.normal, rolling);
     }
   }
@@ -416,7 +427,7 @@ class Rows {
   LaneSums& sums_;
   V half_before_, half_after_;
   PairTerms<V> common_;
-  V inverse_before_{}, softness_{}, rolling_softness_{}, pivoting_softness_{};  ///< SpringTerms
+  V overshoot_{}, softness_{}, rolling_softness_{}, pivoting_softness_{};  ///< SpringTerms
 };
 
 }  // namespace galet::md

@@ -74,6 +74,7 @@ struct alignas(64) RowBlock {
   std::uint8_t law[block_rows];                ///< index of the pair of materials
   std::uint8_t touching, attracted;  ///< bit k: the state of row k (attracted: across a gap, by a cohesion of range D0)
   std::uint8_t sliding[3];  ///< bit k: whether row k slid, rolled, pivoted a step ago; a guess, of no consequence
+  std::uint8_t imaged;      ///< whether any row's j is an image
 };
 
 /// Grains whose records can be addressed by RowBlock.
@@ -95,13 +96,13 @@ struct PassView {
   double* columns;
   std::size_t column_count;  ///< of a block
   double* out;
-  double gradient[9];  ///< L, row by row
-  bool deforming;      ///< L is not zero
-  bool virial;         ///< whether it is wanted
-  bool stepping;       ///< whether a step led here (not at the very start)
-  double half_before;  ///< half the time since the last pass (0 at the very start)
-  double half_after;   ///< half the time to the next one
-  double range;        ///< largest D0
+  double gradient[9];     ///< L, row by row
+  unsigned columns_used;  ///< bit k: whether the k-th column of L is not zero
+  bool virial;            ///< whether it is wanted
+  bool stepping;          ///< whether a step led here (not at the very start)
+  double half_before;     ///< half the time since the last pass (0 at the very start)
+  double half_after;      ///< half the time to the next one
+  double range;           ///< largest D0
   LawKind kind;
   const PairTerms<double>* terms;
   int laws;
@@ -136,20 +137,23 @@ struct StateGroups {
 
 /// Slots of a grain in GrainView::slots.
 inline constexpr int slots_per_grain = 9;
+/// Rows that slots can address.
+constexpr std::size_t most_rows(Layout y) { return (std::size_t{1} << 32) / (sizeof(double) * out_size(y)) - 8; }
 
 /// What the per-grain work reads and writes. Matrices are columns of four.
 struct GrainView {
   alignas(32) double gravity[4];
   alignas(32) double gradient[3][4];  ///< L
-  alignas(32) double deform[3][4];    ///< x' = deform x + step v_half
+  alignas(32) double deform[3][4];    ///< x' = x + dt v_half + deform x + step v_half
   alignas(32) double step[3][4];
+  unsigned columns_used;  ///< bit k: whether the k-th column of any of these matrices is not zero
   double* records;
   double* state;
   double* expected;  ///< second array of the state
   const double* out;
-  /// 9 per grain: 4 of its rows as second member, 4 as first, a row of zeros where it has fewer; then whether it has
-  /// more
-  const int* slots;
+  /// 9 per grain: where in `out`, in bytes, 4 of its rows as second member begin, 4 as first, a row of zeros where it
+  /// has fewer; then whether it has more
+  const std::uint32_t* slots;
   const int *first, *second, *rows_of_second;  ///< of the neighbour list
   std::size_t count;                           ///< grains
   double kick;                                 ///< dt/2 that ends a step (0 at the very start)

@@ -25,15 +25,20 @@ template <class V>
 struct SpringTerms {
   V stiffness;    ///< K now
   V limit;        ///< largest norm of the force now
-  V limit_ahead;  ///< the same, expected half a step ahead
-  V softening;    ///< K half a step ahead over K now, where it falls; else 1
   V viscosity;    ///< alpha
   bool total;     ///< viscous convention
   V half_before;  ///< dt_before / 2 (0 at the very start)
   V half_after;   ///< dt_after / 2
-  // Divisions that plain linear kernels make once for all rows; others leave them out.
-  V softness{};        ///< 1 / K
-  V inverse_before{};  ///< 1 / half_before
+  // What plain kernels find once for all rows; the general one leaves it out.
+  V softness{};   ///< 1 / K, linear law
+  V overshoot{};  ///< dt / half_before, 1 at the very start
+};
+
+/// What is expected half a step ahead. Only springs that slide ask for it.
+template <class V>
+struct SpringAhead {
+  V limit;      ///< largest norm of the force
+  V softening;  ///< K over K now, where it falls; else 1
 };
 
 /// Power that contacts take out of the motion, by channel.
@@ -77,8 +82,8 @@ struct Slide {
 };
 
 template <Kernel K, class V, class Value>
-GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial, const Value& rate,
-                                   const Value& stored, V bounded_viscosity) {
+GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const SpringAhead<V>& ahead, const Value& trial,
+                                   const Value& rate, const Value& stored, V bounded_viscosity) {
   constexpr bool given = !K.general && !K.hertz;
   const V k = law.stiffness, step = law.half_before + law.half_after, inverse = given ? law.softness : V(1.0) / k;
   Slide<V, Value> to;
@@ -90,17 +95,21 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial
   if (K.general) fallen = without(fallen, V(0.0) < bounded_viscosity);
   Value start = stored;
   if (__builtin_expect(any(fallen), 0)) start = select(fallen, with_norm(longest, stored), stored);
-  // dq/dt from K (start + dt/2 dq/dt) + alpha dq/dt = F
-  const V delay = K.general ? madd(inverse, bounded_viscosity, law.half_before) : law.half_before;
-  const auto resolved = V(0.0) < delay;  // not at the very start
-  const Value flow = only(resolved, (given ? law.inverse_before : V(1.0) / delay) * (inverse * to.force - start));
-  const Value free = select(resolved, start + step * flow, inverse * to.force);
-  V most = inverse * law.limit_ahead;
+  // dq/dt from K (start + dt/2 dq/dt) + alpha dq/dt = F; at the very start q is F / K.
+  V overshoot = law.overshoot, delay = law.half_before;
+  if constexpr (K.general) {
+    delay = madd(inverse, bounded_viscosity, law.half_before);
+    overshoot = select(V(0.0) < delay, step / delay, V(1.0));
+  }
+  const Value free = madd(overshoot * inverse, to.force, (V(1.0) - overshoot) * start);
+  // A hair within the limit: at rest rounding would have springs slide by nothing over and over.
+  V most = inverse * (V(1 - 0x1p-49) * ahead.limit);
   // While K falls elongations are kept: the one allowed is that of the softer spring.
-  if (K.general || K.hertz) most = most / law.softening;
+  if (K.general || K.hertz) most = most / ahead.softening;
   if (K.general) most = select(V(0.0) < bounded_viscosity, max(most, sqrt(length_squared)), most);
   to.stored = shortened(most, free);
   if (K.account) {
+    const Value flow = only(V(0.0) < delay, V(1.0) / delay * (inverse * to.force - start));
     to.viscous = bounded_viscosity * squared(flow);
     to.plastic = dot(to.force, rate - flow) +
                  V(0.5) * k * (squared(stored) - squared(start) + squared(free) - squared(to.stored)) / step;
@@ -111,10 +120,10 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const Value& trial
 /// F of the touching pairs; updates the stored elongation (where not touching: to anything finite) and says which of
 /// them slide. `losses` is filled by kernels that account for energy. `guess`: which slid a step ago (bit k: row k).
 /// It changes no result: whether any does now is known late, and a processor that has guessed wrongly has to throw away
-/// what it has begun of the next rows; the guess is known at once and seldom wrong.
-template <Kernel K, int W, class Value>
-GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& law, const Value& rate, Value& stored,
-                                unsigned guess, Mask<W>& slides, Losses<Lanes<W>>& losses) {
+/// what it has begun of the next rows; the guess is known at once and seldom wrong. `ahead()`: SpringAhead.
+template <Kernel K, int W, class Value, class Ahead>
+GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& law, Ahead ahead, const Value& rate,
+                                Value& stored, unsigned guess, Mask<W>& slides, Losses<Lanes<W>>& losses) {
   using V = Lanes<W>;
   const V k = law.stiffness, step = law.half_before + law.half_after;
   const V bounded_viscosity = K.general && law.total ? law.viscosity : V(0.0);
@@ -127,9 +136,11 @@ GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& l
   const Value sticking = K.general && !law.total ? madd(law.viscosity, rate, force) : force;
   if (K.account) losses.viscous += only(without(touching, slides), law.viscosity * squared(rate));
   if (!guess) {
+    // Kept apart from the test of the guess, else one test of both waits for the slides.
+    asm volatile("");
     if (__builtin_expect(!any(slides), 1)) return sticking;
   }
-  const Slide<V, Value> to = slide<K>(law, force, rate, before, bounded_viscosity);
+  const Slide<V, Value> to = slide<K>(law, ahead(), force, rate, before, bounded_viscosity);
   stored = select(slides, to.stored, stored);
   if (K.account) losses.viscous += only(slides, to.viscous), losses.plastic += only(slides, to.plastic);
   return select(slides, to.force, sticking);

@@ -87,10 +87,11 @@ Balance around(const Cycle& cycle, bool hertz) {
     Losses<Lane> losses;
     if (before > 0 && hertz) adapt_spring<kernel, Lane>(before, stiffness, dt, spring, losses);
     const double limit = cycle.friction * normal.bound.v;
-    const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 0.0, false, dt / 2, dt / 2};
+    const SpringTerms<Lane> terms{stiffness, limit, 0.0, false, dt / 2, dt / 2};
+    const auto ahead = [&] { return SpringAhead<Lane>{limit, 1.0}; };
     Mask<1> slides;
     const Vec<3> force =
-        from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, 0, slides, losses));
+        from_lanes(spring_force<kernel>({true}, terms, ahead, to_lanes(shear / dt), spring, 0, slides, losses));
     EXPECT_LE(force.norm(), limit * (1 + 1e-12));
     balance.work += force.dot(shear);
     balance.lost += dt * (losses.plastic + losses.unloading + losses.viscous).v;
@@ -157,10 +158,11 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
       double work = 0, lost = 0;
       walk(cycle, [&](double, const Vec<3>& shear) {
         Losses<Lane> losses;
-        const SpringTerms<Lane> terms{stiffness, limit, limit, 1.0, 30.0, total, dt / 2, dt / 2};
+        const SpringTerms<Lane> terms{stiffness, limit, 30.0, total, dt / 2, dt / 2};
+        const auto ahead = [&] { return SpringAhead<Lane>{limit, 1.0}; };
         Mask<1> slides;
         const Vec<3> force =
-            from_lanes(spring_force<kernel>({true}, terms, to_lanes(shear / dt), spring, 0, slides, losses));
+            from_lanes(spring_force<kernel>({true}, terms, ahead, to_lanes(shear / dt), spring, 0, slides, losses));
         if (total) {
           EXPECT_LE(force.norm(), limit * (1 + 1e-12));
         }

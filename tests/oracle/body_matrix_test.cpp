@@ -106,7 +106,9 @@ TEST(BodyMatrix, MethodsOnBodiesAgreeWithThoseOnContacts) {
       const DiscreteProblem problem = reduced(bodies);
       for (const char* name : {"newton", "newton-frozen", "ipm"}) {
         DiscreteOptions options;
-        options.error = name[0] == 'i' ? 1e-7 : 1e-10;  // interior points floor near 1e-8 at the edge of two states
+        // At the edge of two states interior points end at the root of rounding: 1e-8 to 1e-7, as the BLAS library
+        // rounds.
+        options.error = name[0] == 'i' ? 1e-6 : 1e-10;
         options.solver = name;
         const DiscreteSolution on_contacts = solve(problem, options);
         options.solver += "-bodies";
