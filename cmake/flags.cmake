@@ -7,7 +7,7 @@ add_library(galet_flags INTERFACE)
 target_compile_options(galet_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math
   # -Wrestrict reports string concatenation falsely in GCC 12 (bug 105651).
-  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict)
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 if(CMAKE_UNITY_BUILD)
   # Most of a compilation is what Eigen's expressions make of themselves, again in each file: few large files take a third
   # less than many. Two cores need no more than two or three of a target.
@@ -15,7 +15,7 @@ if(CMAKE_UNITY_BUILD)
     set(CMAKE_UNITY_BUILD_BATCH_SIZE 40)
   endif()
   # Types of a source's unnamed namespace look to GCC as if a header held them, its constants as those of other sources.
-  target_compile_options(galet_flags INTERFACE -Wno-subobject-linkage -Wno-shadow)
+  target_compile_options(galet_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> -Wno-shadow)
   # Files this large make GCC collect its garbage over and over: a tenth of the time against half a gigabyte.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(galet_flags INTERFACE --param=ggc-min-heapsize=1000000)

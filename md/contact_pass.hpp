@@ -119,7 +119,7 @@ class ContactPass {
     }
     PassView view{};
     view.records = seen.grains.data();
-    view.shifts = shifts_.data()->value;
+    view.shifts = doubles(shifts_);
     view.blocks = contacts.blocks();
     view.constants = contacts.constants();
     view.constants_stride = contacts.equal_pairs() ? 0 : 1;
@@ -144,7 +144,7 @@ class ContactPass {
   Kernel kernel_;
   PassFunction function_;
   std::vector<LaneSums> partial_;
-  std::vector<Line> shifts_;
+  StepArray<Line> shifts_;
 };
 
 }  // namespace galet::md

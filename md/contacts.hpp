@@ -26,6 +26,10 @@ struct alignas(64) Line {
 template <class T>
 using StepArray = std::vector<T, LargePages<T>>;
 
+/// Lines one after the other as one array of doubles.
+inline double* doubles(StepArray<Line>& lines) { return reinterpret_cast<double*>(lines.data()); }
+inline const double* doubles(const StepArray<Line>& lines) { return reinterpret_cast<const double*>(lines.data()); }
+
 /// What the pair of a row is doing.
 enum class RowState : std::uint8_t { apart, touching, attracted /**< across a gap, by a cohesion of range D0 */ };
 
@@ -45,14 +49,14 @@ class Contacts {
   std::size_t size() const { return rows_; }
   std::size_t block_count() const { return blocks_.size(); }
   RowBlock* blocks() { return blocks_.data(); }
-  double* columns() { return columns_.data()->value; }
+  double* columns() { return doubles(columns_); }
   /// Of each block.
   std::size_t column_count() const { return static_cast<std::size_t>(C::count(varying_stiffness)); }
   const RowConstants* constants() const { return constants_.data(); }
   /// Whether the first block of constants serves all rows.
   bool equal_pairs() const { return equal_pairs_; }
-  double* out() { return out_.data()->value; }
-  const double* out() const { return out_.data()->value; }
+  double* out() { return doubles(out_); }
+  const double* out() const { return doubles(out_); }
 
   double& at(std::size_t row, int column) {
     return columns_[row / block_rows * column_count() + column].value[row % block_rows];

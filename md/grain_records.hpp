@@ -34,8 +34,8 @@ class GrainRecords {
   void rearrange(const Permutation& step) { step.apply(data(), record_size(Y)); }
 
   std::size_t bytes() const { return bytes_of(lines_); }
-  double* data() { return lines_.data()->value; }
-  const double* data() const { return lines_.data()->value; }
+  double* data() { return doubles(lines_); }
+  const double* data() const { return doubles(lines_); }
 
   void put_position(int i, const Vec<D>& position) {
     double* to = record(i);
@@ -65,8 +65,8 @@ class GrainRecords {
   }
 
  private:
-  double* record(int i) { return lines_.data()->value + static_cast<std::size_t>(i) * record_size(Y); }
-  const double* record(int i) const { return lines_.data()->value + static_cast<std::size_t>(i) * record_size(Y); }
+  double* record(int i) { return doubles(lines_) + static_cast<std::size_t>(i) * record_size(Y); }
+  const double* record(int i) const { return doubles(lines_) + static_cast<std::size_t>(i) * record_size(Y); }
 
   StepArray<Line> lines_;
 };

@@ -20,8 +20,8 @@ class GrainStates {
   using S = StateGroups<Y>;
 
   std::size_t bytes() const { return bytes_of(lines_, expected_); }
-  double* expected() { return expected_.data()->value; }
-  double* data() { return lines_.data()->value; }
+  double* expected() { return doubles(expected_); }
+  double* data() { return doubles(lines_); }
 
   /// Velocities and constants of the bodies; accelerations are kept.
   void take(const Bodies<Y>& bodies) {
@@ -105,8 +105,8 @@ class GrainStates {
   double* at(int i, int place) { return const_cast<double*>(std::as_const(*this).at(i, place)); }
   const double* at(int i, int place) const {
     const auto grain = static_cast<std::size_t>(i);
-    if (place < S::size) return lines_.data()->value + grain * S::size + place;
-    return expected_.data()->value + grain * S::second_size + (place - S::size);
+    if (place < S::size) return doubles(lines_) + grain * S::size + place;
+    return doubles(expected_) + grain * S::second_size + (place - S::size);
   }
   void set_constants(int i, const Bodies<Y>& bodies) {
     double* state = at(i, 0);

@@ -288,14 +288,6 @@ class Rows {
       return spring;
   }
 
-  /// The springs of rows that part are given up; returns the elongation to store.
-  template <class Value>
-  GALET_INLINE Value kept(M touching, const Value& before, const Value& after, V stiffness, Losses<V>& losses) const {
-    if constexpr (K.account)
-      losses.plastic += select(touching, V(0.0), V(0.5) * stiffness * squared(before) / (half_before_ + half_after_));
-    return only(touching, after);
-  }
-
   GALET_INLINE void note_losses(M touching, const Losses<V>& losses, double (*sums)[block_rows], int lane) const {
     add_lanes(sums[0], lane, only(touching, losses.viscous));
     add_lanes(sums[1], lane, losses.plastic);
@@ -331,14 +323,14 @@ class Rows {
       slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
     if constexpr (Cross::any) force = begun(cross, slides, force, by.viscosity, rate, sliding);
     if constexpr (K.account) {
-      losses.viscous = sliding.viscous, losses.plastic = only(touching, sliding.plastic);
-      elongation = kept(touching, before, elongation, varying() ? by.ratio * stiffness_before : stiffness, losses);
+      // The springs of rows that part are given up.
+      const V last = varying() ? by.ratio * stiffness_before : stiffness;
+      const V given_up = V(0.5) * last * squared(before) / (half_before_ + half_after_);
+      losses.viscous = sliding.viscous, losses.plastic = select(touching, sliding.plastic, given_up);
       note_losses(touching, losses, sums, lane);
-    } else {
-      elongation = only(touching, elongation);
     }
     store(elongation, column);
-    return only(touching, force);
+    return force;
   }
 
   /// The force of springs that have begun to act within the step.

@@ -117,9 +117,9 @@ GALET_INLINE Slide<V, Value> slide(const SpringTerms<V>& law, const SpringAhead<
   return to;
 }
 
-/// F of the touching pairs; updates the stored elongation (where not touching: to anything finite) and says which of
-/// them slide. `losses` is filled by kernels that account for energy. `guess`: which slid a step ago (bit k: row k).
-/// It changes no result: whether any does now is known late, and a processor that has guessed wrongly has to throw away
+/// F of the touching pairs; updates the stored elongation and says which of them slide. Both are zero where not
+/// touching. `losses` is filled by kernels that account for energy. `guess`: which slid a step ago (bit k: row k). It
+/// changes no result: whether any does now is known late, and a processor that has guessed wrongly has to throw away
 /// what it has begun of the next rows; the guess is known at once and seldom wrong. `ahead()`: SpringAhead.
 template <Kernel K, int W, class Value, class Ahead>
 GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& law, Ahead ahead, const Value& rate,
@@ -129,11 +129,13 @@ GALET_INLINE Value spring_force(Mask<W> touching, const SpringTerms<Lanes<W>>& l
   const V bounded_viscosity = K.general && law.total ? law.viscosity : V(0.0);
   Value force = k * madd(law.half_before, rate, stored);
   if (K.general) force = madd(bounded_viscosity, rate, force);
+  force = only(touching, force);
   const V trial = squared(force);
   slides = touching & (law.limit * law.limit < trial);
   const Value before = stored;
-  stored = madd(step, rate, stored);
-  const Value sticking = K.general && !law.total ? madd(law.viscosity, rate, force) : force;
+  stored = only(touching, madd(step, rate, stored));
+  Value sticking = force;
+  if (K.general && !law.total) sticking = only(touching, madd(law.viscosity, rate, force));
   if (K.account) losses.viscous += only(without(touching, slides), law.viscosity * squared(rate));
   if (!guess) {
     // Kept apart from the test of the guess, else one test of both waits for the slides.

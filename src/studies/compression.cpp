@@ -36,13 +36,19 @@ void report_state(StudyReport& report, const std::vector<StudyRow>& rows, char s
     report.add("share of rattlers" + of, at(Observable::rattler_fraction), "compression.rattlers_" + letter);
   }
   const std::string compressed = fmt::format("kappa {:g}", last_level);
-  const Estimate z_star = at_stage(rows, EngineKind::md, state, compressed, Observable::z_star);
-  if (state == 'A')
-    report.add("z* of A at kappa = 2000 over 39000, - 1",
-               ratio(z_star, at_stage(rows, EngineKind::md, 'A', "A", Observable::z_star)) - Estimate{1, 0},
-               "compression.growth_A");
-  else
-    report.add(fmt::format("z* of {} at kappa = 2000", state), z_star, "compression.z_star_2000");
+  const auto grown = [&](Observable observable) {
+    return at_stage(rows, EngineKind::md, state, compressed, observable);
+  };
+  const auto start = [&](Observable observable) { return at_stage(rows, EngineKind::md, state, letter, observable); };
+  if (state == 'A') {
+    report.add("z of A at kappa = 2000 over 39000, - 1",
+               ratio(grown(Observable::z), start(Observable::z)) - Estimate{1, 0}, "compression.growth_A");
+    return;
+  }
+  report.add(fmt::format("z of {} at kappa = 2000", state), grown(Observable::z), "compression.z_2000");
+  report.add(fmt::format("share of the rattlers of {} left at kappa = 2000", state),
+             ratio(grown(Observable::rattler_fraction), start(Observable::rattler_fraction)),
+             "compression.rattlers_2000");
 }
 
 Figure level_figure(const std::vector<StudyRow>& rows, Observable observable, const std::string& label) {
