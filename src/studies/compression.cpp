@@ -102,8 +102,7 @@ StudyReport report(const std::vector<StudyRow>& rows) {
   report.figures.push_back({"rattlers", level_figure(rows, Observable::rattler_fraction, "share of rattlers")});
   report.figures.push_back({"Phi", level_figure(rows, Observable::solid_fraction, "Phi")});
   report.remarks.emplace_back(
-      "figures show seed 1; findings are means over the seeds, with the error of their scatter; "
-      "65, 67 and 68 stand for the states A, C and D in the tables");
+      "figures show seed 1; findings are means over the seeds, with the error of their scatter");
   return report;
 }
 

@@ -26,7 +26,7 @@ std::string shared_state(const StudyRun& run) {
   std::string text;
   for (const auto& [name, value] : run.parameters)
     if (name != "kappa" && name != "rigid" && name != "seed")
-      text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ", name, value);
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, parameter_text(name, value));
   return text;
 }
 

@@ -1,10 +1,12 @@
 #include "src/studies/study.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "src/studies/estimates.hpp"
 #include "src/studies/published.hpp"
+#include "src/text_table.hpp"
 
 namespace galet {
 
@@ -31,6 +33,10 @@ void StudyReport::add(const std::string& quantity, const Estimate& ours, std::st
                       const std::string& note) {
   const Published& number = published(key);
   findings.push_back({quantity, ours, number, judge(ours, number), note});
+}
+
+std::string parameter_text(std::string_view name, double value) {
+  return name == "state" && !std::isnan(value) ? std::string(1, static_cast<char>(value)) : short_number(value);
 }
 
 std::vector<const StudyRow*> rows_with(const std::vector<StudyRow>& rows, std::optional<EngineKind> engine,

@@ -80,6 +80,9 @@ struct Study {
   StudyReport (*evaluate)(const std::vector<StudyRow>& rows);  ///< of the usable rows
 };
 
+/// The value of a parameter as tables show it: a number, of `state` the letter that it codes.
+std::string parameter_text(std::string_view name, double value);
+
 /// Rows of `engine` whose parameters are as given (those that are not named may have any value).
 std::vector<const StudyRow*> rows_with(const std::vector<StudyRow>& rows, std::optional<EngineKind> engine,
                                        const std::vector<std::pair<std::string, double>>& parameters);

@@ -29,7 +29,7 @@ std::string runs_text(const Study& study, const StudyOutcome& outcome) {
   std::string notes;
   for (const StudyRow& row : outcome.rows) {
     std::vector<std::string> cells{engine_name(row.plan.engine)};
-    for (const std::string& name : parameters) cells.push_back(short_number(row.plan.parameter(name)));
+    for (const std::string& name : parameters) cells.push_back(parameter_text(name, row.plan.parameter(name)));
     for (const Observable observable : {Observable::mu_star, Observable::solid_fraction, Observable::z})
       cells.push_back(with_error(row[observable]));
     cells.push_back(std::to_string(row.run.steps));

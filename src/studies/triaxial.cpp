@@ -168,8 +168,8 @@ StudyReport report(const std::vector<StudyRow>& rows) {
   report.figures.push_back({"deviator", curve_figure(rows, true)});
   report.figures.push_back({"volume", curve_figure(rows, false)});
   report.remarks.emplace_back(
-      "figures show seed 1; findings are means over the seeds, with the error of their scatter; 65 "
-      "and 67 stand for the states A and C in the table of runs, kappa = 0 for rigid grains");
+      "figures show seed 1; findings are means over the seeds, with the error of their scatter; "
+      "kappa = 0 stands for rigid grains");
   return report;
 }
 

@@ -253,13 +253,13 @@ TEST(Study, CostOfSamplesIsThatOfTheirScatter) {
       for (const int seed : {0, 1, 2})
         for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
           const bool soft = engine == EngineKind::md;
-          rows.push_back(cost_row(engine, {{"state", 1}, {"seed", 3 * copy + seed}},
+          rows.push_back(cost_row(engine, {{"state", 'A'}, {"seed", 3 * copy + seed}},
                                   {0.4 + (soft ? 0.02 : 0.04) * (seed - 1), 1e-9}, (soft ? 1 : 5) * (1.0 + seed),
                                   Ending::equilibrium));
         }
     const auto pairs = cost_pairs(tiny, rows);
     ASSERT_EQ(pairs.size(), 1u);
-    EXPECT_EQ(pairs[0].state, "state = 1");
+    EXPECT_EQ(pairs[0].state, "state = A");
     // Squares of 5 % and 10 %, each twice in a copy; two means are known from the samples.
     const double variance = copies * 2 * (0.0025 + 0.01) / (6 * copies - 2);
     EXPECT_NEAR(pairs[0].md, 2 * 1e4 * variance, 1e-9 * pairs[0].md);
