@@ -65,14 +65,16 @@ fi
 if ! ls "$results"/*/report.txt >/dev/null 2>&1; then echo "No results are here yet."; fi
 # In the order of the chapter.
 for name in flow-law flow-kappa flow-friction flow-restitution inclined-plane annular-shear cohesive-flow compression triaxial critical-state consolidation regimes; do
-  folder=$results/$name
+  place=benchmarks/results/studies_full/$name  # a finished study of the published size takes the place of the quick one
+  [ -f "$root/$place/report.txt" ] || place=benchmarks/results/studies/$name
+  folder=$root/$place
   [ -f "$folder/report.txt" ] || continue
   title=$(sed -n '1s/^[^:]*: //p' "$folder/report.txt")
   printf '## %s\n\n`galet study %s`\n\n' "$title" "$name"
   for figure in "$folder"/*.svg; do
     [ -f "$figure" ] || continue
     stem=$(basename "$figure" .svg)
-    printf '![%s](../benchmarks/results/studies/%s/%s.svg)\n' "$stem" "$name" "$stem"
+    printf '![%s](../%s/%s.svg)\n' "$stem" "$place" "$stem"
   done
   printf '\n```\n'
   cat "$folder/report.txt"

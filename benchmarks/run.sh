@@ -27,8 +27,9 @@
 #   rigid_limit      contact forces of a hyperstatic packing in md and elastic cd at kappa = 1e2 to 1e7, contact by contact
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   siconos_hard_cases  contact problems of hard cases given to Siconos; skipped where it is not installed
-#   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days), then
-#                    docs/reproduction.md; not among the default
+#   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days, under
+#                    results/studies_full; rows there are finished runs, from which it goes on), then docs/reproduction.md; not among
+#                    the default
 #   gradient_flows   stop and flow on a rough inclined plane, both engines
 #   faults           runs of both engines killed at 200 random moments each, a full file system, 1e4 damaged checkpoints, 1e5 scenes with
 #                    mistakes
@@ -49,10 +50,10 @@ names=("$@")
 [ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles solver_bodies cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify siconos_hard_cases plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
-    size=--quick
-    [ "${GALET_STUDY_SIZE:-quick}" = full ] && size=
+    size=--quick kind=studies
+    [ "${GALET_STUDY_SIZE:-quick}" = full ] && size='' kind=studies_full
     for study in $("$bin/src/galet" study --list | awk 'NR > 1 && NF == 0 { exit } NR > 1 { print $1 }'); do
-      out=benchmarks/results/studies/$study
+      out=benchmarks/results/$kind/$study
       "$bin/src/galet" study "$study" $size --jobs 2 --out "$out"
       rm -rf "$out"/*.png "$out/rows"  # tables and scenes say the same
       benchmarks/machine.sh >"$out/machine.txt"
