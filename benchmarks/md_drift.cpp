@@ -15,11 +15,12 @@
 //               error of its own, and these heat; `half` tells how that goes with the step
 //   kinetic     mean kinetic energy, spins included, over the same
 //   moved       rms distance of the grains with a contact from their places at the start, the common motion taken off,
-//               over d; farthest: the largest
+//               over d; farthest: the largest; both empty where no grain has a contact
 // seconds: processor time since the case began.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,6 +85,8 @@ std::pair<double, double> moved(Engine<D>& engine, const std::vector<Vec<D>>& be
     way.push_back(now.cell->box * fraction);
     mean += way.back();
   }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (way.empty()) return {none, none};
   double sum = 0, farthest = 0;
   const auto count = static_cast<double>(way.size());
   for (const Vec<D>& one : way) {
@@ -125,9 +128,10 @@ void run(const Case& which, const Sample<D>& packing, long steps) {
     const auto [distance, farthest] = moved<D>(*engine, before);
     const Mean mean = mean_energy<D>(*engine, at_rest);
     done += Mean::steps;
-    fmt::print("{},{},{},{:.4g},{},{:.2e},{:.2e},{:.2e},{:.2e},{:.0f}\n", which.name, D, sample.count(),
+    const auto shown = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{:.2e}", value); };
+    fmt::print("{},{},{},{:.4g},{},{:.2e},{:.2e},{},{},{:.0f}\n", which.name, D, sample.count(),
                *derived.collision_time / engine->dt(), stride * mark, (mean.energy - first.energy) / unit,
-               mean.kinetic / unit, distance, farthest, thread_seconds() - start);
+               mean.kinetic / unit, shown(distance), shown(farthest), thread_seconds() - start);
     std::fflush(stdout);
   }
 }

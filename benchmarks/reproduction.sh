@@ -52,8 +52,6 @@ cat <<'END'
   inertial number: rigid grains are the better choice in fast flows and stiff ones, soft ones at kappa of a few thousand near rest, where cd's contacts want many
   sweeps.
 - Not to be had from these rows: local laws of slopes and annuli, whose errors are not kept row by row.
-- Reports below whose costs are of "the cheapest row of each engine" were written before these definitions: there `flow-kappa` compares kappa = 40 with rigid grains,
-  and `annular-shear` and `triaxial` take errors of averages over time for those of samples.
 
 END
 if [ -f "$results/compression/report.txt" ]; then

@@ -5,7 +5,7 @@ set xlabel 'inertial number {/:Italic I}'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [0.0033627176350999:0.2]
+set xrange [0.003167127897188718:0.2]
 set ylabel 'mu*'
 set autoscale noextend
 set offsets 0, 0, graph 0.03, graph 0.03

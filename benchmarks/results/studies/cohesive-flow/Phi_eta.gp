@@ -3,6 +3,7 @@ set encoding utf8
 set title 'Solid fraction at I = 0.2 (quick size)'
 set xlabel 'cohesion number eta'
 set ylabel 'Phi'
+set autoscale noextend
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

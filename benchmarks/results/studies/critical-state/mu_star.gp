@@ -3,6 +3,7 @@ set encoding utf8
 set title 'Internal friction in the critical state (quick size)'
 set xlabel 'friction of contacts mu'
 set ylabel 'mu*_c'
+set autoscale noextend
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

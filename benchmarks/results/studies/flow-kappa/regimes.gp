@@ -7,6 +7,7 @@ set logscale y
 set format y '10^{%L}'
 set mytics 10
 set yrange [0.00025298221281347036:0.019764235376052368]
+set autoscale noextend
 set offsets graph 0.03, graph 0.03, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

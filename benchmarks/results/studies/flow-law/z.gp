@@ -7,6 +7,7 @@ set format x '10^{%L}'
 set mxtics 10
 set xrange [0.008:0.375]
 set ylabel 'z'
+set autoscale noextend
 set offsets 0, 0, graph 0.03, graph 0.03
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2

@@ -5,7 +5,7 @@ set xlabel 'inertial number {/:Italic I}'
 set logscale x
 set format x '10^{%L}'
 set mxtics 10
-set xrange [0.007147245899174591:0.25]
+set xrange [0.01:1]
 set ylabel 'mu*'
 set autoscale noextend
 set offsets 0, 0, graph 0.03, graph 0.03

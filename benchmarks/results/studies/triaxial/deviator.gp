@@ -3,6 +3,7 @@ set encoding utf8
 set title 'Triaxial compression of spheres (quick size)'
 set xlabel 'axial strain'
 set ylabel 'q / P'
+set autoscale noextend
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2
