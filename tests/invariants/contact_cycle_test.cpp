@@ -175,6 +175,36 @@ TEST(ContactCycle, ViscosityOnlyDissipates) {
     }
 }
 
+/// How many of the springs that have slid, and whose pairs then rest, go on sliding.
+template <Kernel K>
+int sliding_at_rest() {
+  constexpr double dt = 0.01;
+  int sliding = 0;
+  for (int number = 0; number < 2000; ++number) {
+    RandomStream random(12, number);
+    const double stiffness = random.uniform(1, 10), limit = random.uniform(0.1, 1), longest = limit / stiffness;
+    const SpringTerms<Lane> terms{stiffness, limit, 0.0, false, dt / 2, dt / 2, 1 / stiffness, 2.0};
+    const auto ahead = [&] { return SpringAhead<Lane>{limit, 1.0}; };
+    LaneVector spring{0.0, 0.0, 0.0};
+    Vec<3> rate = 20 * longest / dt * Vec<3>(random.uniform(-1, 1), random.uniform(-1, 1), 1);
+    for (int step = 0; step < 4; ++step) {
+      Mask<1> slides;
+      Losses<Lane> losses;
+      const Vec<3> force = from_lanes(spring_force<K>({true}, terms, ahead, to_lanes(rate), spring, 0, slides, losses));
+      EXPECT_NEAR(force.norm(), limit, 1e-14 * limit);  // a few roundings
+      EXPECT_TRUE(step > 0 || slides.on);
+      if (step > 0 && slides.on) ++sliding;
+      rate.setZero();
+    }
+  }
+  return sliding;
+}
+
+TEST(ContactSpring, StopsSlidingWhereThePairRests) {
+  EXPECT_EQ((sliding_at_rest<Kernel{true, false, true}>()), 0);
+  EXPECT_EQ((sliding_at_rest<Kernel{false, false, false}>()), 0);
+}
+
 /// The force of a pair at unit distance that turns rigidly by `turn` in a step that ends with the normal `next`.
 Vec<3> turned(const Vec<3>& force, const Vec<3>& next, const Vec<3>& turn) {
   return from_lanes(carried<Lane>(to_lanes(force), to_lanes(next), 1.0, to_lanes(Vec<3>(turn.cross(next))),
