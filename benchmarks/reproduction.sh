@@ -13,11 +13,18 @@ only within two standard errors of ours; *NO*: neither. Where the source states 
 it. The size that was run stands in each head; a quick size is a first look. Scenes (`scenes/*.toml`) run alone with `galet run`.
 
 END
+# place_of STUDY: the folder of its results. One of the published size takes the place of the quick one when it has finished (a
+# report there may be of a run that was broken off; machine.txt comes last).
+place_of() {
+  full=benchmarks/results/studies_full/$1
+  if [ -f "$root/$full/machine.txt" ]; then echo "$full"; else echo "benchmarks/results/studies/$1"; fi
+}
 # cost_row STUDY QUANTITY [awk's settings]: a row of the table of costs, if the study has results of both engines.
 cost_row() {
   study=$1; quantity=$2; shift 2
-  [ -f "$results/$study/runs.csv" ] || return 0
-  cells=$(awk "$@" -f "$root/benchmarks/study_costs.awk" "$results/$study/runs.csv")
+  runs=$root/$(place_of "$study")/runs.csv
+  [ -f "$runs" ] || return 0
+  cells=$(awk "$@" -f "$root/benchmarks/study_costs.awk" "$runs")
   [ -n "$cells" ] && echo "| $study | $quantity | $cells |"
   return 0
 }
@@ -63,8 +70,7 @@ fi
 if ! ls "$results"/*/report.txt >/dev/null 2>&1; then echo "No results are here yet."; fi
 # In the order of the chapter.
 for name in flow-law flow-kappa flow-friction flow-restitution inclined-plane annular-shear cohesive-flow compression triaxial critical-state consolidation regimes; do
-  place=benchmarks/results/studies_full/$name  # a finished study of the published size takes the place of the quick one
-  [ -f "$root/$place/report.txt" ] || place=benchmarks/results/studies/$name
+  place=$(place_of "$name")
   folder=$root/$place
   [ -f "$folder/report.txt" ] || continue
   title=$(sed -n '1s/^[^:]*: //p' "$folder/report.txt")

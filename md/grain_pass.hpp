@@ -121,7 +121,6 @@ class GrainPass {
     view.first = list.first().data(), view.second = list.second().data();
     view.rows_of_second = list.rows_of_second().data();
     view.kick = kick;
-    view.deforming = !seen.gradient.isZero(0);
   }
 
   /// Returns the map that moves the box.
@@ -130,7 +129,6 @@ class GrainPass {
     fill(view, view.deform, step.deform - Mat<D>::Identity());
     fill(view, view.step, dt * (step.advance - Mat<D>::Identity()));
     view.half = 0.5 * dt;
-    view.deforming = !gradient.isZero(0);
     return step.deform;
   }
 

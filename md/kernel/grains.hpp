@@ -45,7 +45,7 @@ class Grains {
       add_rows(grain, 0, second, first);
       now.acceleration = madd(second - first, F::all(state[S::inverse_mass]), gravity_);
     }
-    if (view_.deforming)
+    if (view_.columns_used != 0)
       now.acceleration =
           now.acceleration - apply<Y, W>(view_.gradient, view_.columns_used, seen_velocity<Y, W>(record), F::zero());
     now.velocity = madd(kick_, now.acceleration, velocity);
@@ -120,7 +120,7 @@ class Grains {
     keep_constants(mid, state + S::velocity);
     const F place = F::load(record);
     F moved = madd(whole_, mid, place);
-    if (view_.deforming) {
+    if (view_.columns_used != 0) {
       moved = apply<Y, W>(view_.step, view_.columns_used, mid, moved);
       moved = apply<Y, W>(view_.deform, view_.columns_used, place, moved);
     }
