@@ -158,7 +158,7 @@ struct GrainView {
   std::size_t count;                           ///< grains
   double kick;                                 ///< dt/2 that ends a step (0 at the very start)
   double half;                                 ///< dt/2 that begins one
-  bool kinetic;  ///< whether the sum of m v (x) v is wanted
+  bool kinetic;                                ///< whether the sum of m v (x) v is wanted
 };
 
 struct GrainFunctions {

@@ -106,8 +106,8 @@ TEST(BodyMatrix, MethodsOnBodiesAgreeWithThoseOnContacts) {
       const DiscreteProblem problem = reduced(bodies);
       for (const char* name : {"newton", "newton-frozen", "ipm"}) {
         DiscreteOptions options;
-        // Interior points end where their matrix has lost its digits: on 30 problems like these, matrices of contacts
-        // at 1e-14 (disks) to 2e-7, of bodies at 4e-12 to 9e-7, as the BLAS library rounds.
+        // Interior points end short of rounding: on 30 problems like these those on contacts at 6e-15 to 2.4e-7, those
+        // on bodies at 1e-13 to 9e-7; the last digits follow the BLAS library.
         options.error = name[0] == 'i' ? 1e-6 : 1e-10;
         options.solver = name;
         const DiscreteSolution on_contacts = solve(problem, options);
