@@ -13,6 +13,7 @@
 #include "src/studies/flow_fit.hpp"
 #include "src/studies/gradient_templates.hpp"
 #include "src/studies/published.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -183,6 +184,7 @@ std::vector<StudyRun> plan(StudySize size) {
       ShearScene scene;
       scene.engine = engine;
       scene.grains = quick ? 300 : 2000;
+      scene.contact_steps = quick ? 0 : sparing_steps;
       scene.stiffness_level = quick ? 1e3 : 1e4;
       scene.inertial_number = state;
       scene.strain = quick ? 20 : 60;

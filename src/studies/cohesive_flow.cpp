@@ -9,6 +9,7 @@
 #include "src/engines.hpp"
 #include "src/studies/estimates.hpp"
 #include "src/studies/flow_fit.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -86,6 +87,7 @@ StudyRun cohesive_run(EngineKind engine, bool quick, double friction, double eta
   ShearScene scene;
   scene.engine = engine;
   scene.grains = quick ? 200 : 2000;
+  scene.contact_steps = quick ? 0 : sparing_steps;
   scene.friction = friction;
   scene.stiffness_level = stiffness;
   scene.inertial_number = inertial_number;

@@ -1,10 +1,11 @@
-// Isotropic compression of equal spheres: Phi, z* and rattlers of the states A, C and D, and how z* grows as kappa
-// falls, with the states that rigid grains (cd) come to beside them.
+// Isotropic compression of equal spheres: Phi, z* and rattlers of the states A, C and D, how z* grows as kappa falls
+// and what is left of it on the way back, with the states that rigid grains (cd) come to beside them.
 #include <array>
 
 #include <fmt/format.h>
 
 #include "src/engines.hpp"
+#include "src/studies/compression_parts.hpp"
 #include "src/studies/estimates.hpp"
 #include "src/studies/solid_templates.hpp"
 #include "src/studies/studies.hpp"
@@ -14,16 +15,12 @@ namespace galet::compression {
 
 namespace {
 
-constexpr double first_level = 39000, last_level = 2000;
+constexpr double last_level = 2000;
 constexpr std::array states = {'A', 'C', 'D'};
 
-/// Mean over the seeds of an observable at the end of a stage; its error is that of the scatter.
 Estimate at_stage(const std::vector<StudyRow>& rows, EngineKind engine, char state, const std::string& stage,
                   Observable observable) {
-  std::vector<Estimate> values;
-  for (const StudyRow* row : rows_with(rows, engine, {{"state", state}}))
-    if (const StageReport* report = stage_of(*row, stage)) values.push_back({report->last[observable], 0});
-  return weighted_mean(values);
+  return mean_at_stage(rows_with(rows, engine, {{"state", state}, {"oedometric", 0}}), stage, observable);
 }
 
 void report_state(StudyReport& report, const std::vector<StudyRow>& rows, char state) {
@@ -57,9 +54,10 @@ Figure level_figure(const std::vector<StudyRow>& rows, Observable observable, co
     Series series;
     series.label = fmt::format("state {}", state);
     series.line = true;
-    for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"state", state}}))
+    for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"state", state}, {"oedometric", 0}}))
       for (const StageReport& stage : row->run.stages) {
-        const bool rest = stage.name == std::string(1, state) || stage.name.starts_with("kappa");
+        const bool rest =
+            stage.name == std::string(1, state) || stage.name.starts_with("kappa") || stage.name == "back";
         if (!rest || row->plan.parameter("seed") != 1) continue;
         series.x.push_back(stage.last[Observable::stiffness_level]);
         series.y.push_back(stage.last[observable]);
@@ -89,20 +87,27 @@ std::vector<StudyRun> plan(StudySize size) {
         if (engine == EngineKind::md) text += compression_stages(scene, levels);
         runs.push_back({fmt::format("{}_{}_seed_{}", engine_name(engine), state, seed),
                         engine,
-                        {{"state", state}, {"seed", seed}},
+                        {{"state", state}, {"oedometric", 0}, {"seed", seed}},
                         text});
       }
+  add_oedometric_runs(runs, quick);
+  add_assembly_runs(runs, quick);
   return runs;
 }
 
 StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   for (const char state : states) report_state(report, rows, state);
+  report_cycles(report, rows);
+  report_assembly(report, rows);
   report.figures.push_back({"z_star", level_figure(rows, Observable::z_star, "z*")});
   report.figures.push_back({"rattlers", level_figure(rows, Observable::rattler_fraction, "share of rattlers")});
   report.figures.push_back({"Phi", level_figure(rows, Observable::solid_fraction, "Phi")});
+  report.figures.push_back({"assembly", assembly_figure(rows)});
   report.remarks.emplace_back(
-      "figures show seed 1; findings are means over the seeds, with the error of their scatter");
+      "figures against kappa show seed 1, on the way down to the lowest kappa and back; findings are means over the "
+      "seeds, "
+      "with the error of their scatter");
   return report;
 }
 

@@ -7,6 +7,7 @@
 #include "src/engines.hpp"
 #include "src/studies/estimates.hpp"
 #include "src/studies/published.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -113,6 +114,7 @@ StudyRun critical_run(EngineKind engine, int dimension, double friction, double 
   scene.grains = quick ? (dimension == 2 ? 200 : 300) : (dimension == 2 ? 2000 : 4000);
   scene.friction = friction;
   scene.stiffness_level = quick ? 3000 : 1e4;
+  scene.contact_steps = quick ? 0 : sparing_steps;
   scene.inertial_number = quick ? (dimension == 2 ? 5e-3 : 0.02) : 1e-3;
   scene.strain = quick ? 5 : 10;
   scene.settling = 2;

@@ -8,6 +8,7 @@
 #include "src/engines.hpp"
 #include "src/rigid_limit.hpp"
 #include "src/studies/estimates.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -109,6 +110,7 @@ std::vector<StudyRun> plan(StudySize size) {
     ShearScene scene;
     scene.engine = engine;
     scene.grains = quick ? 200 : 2000;
+    scene.contact_steps = quick ? 0 : sparing_steps;
     scene.inertial_number = state;
     scene.strain = std::clamp(400 * state, 16.0, 40.0);
     scene.stiffness_level = level;

@@ -1,5 +1,5 @@
-// Phi(I) and mu*(I) of the reference material in both engines, with the fits of the linear laws, and states sheared at
-// held volume beside them.
+// Phi(I) and mu*(I) of the reference material in both engines, with the fits of the linear laws; states sheared at held
+// volume and flows between rough walls beside them.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,9 @@
 #include "src/engines.hpp"
 #include "src/studies/estimates.hpp"
 #include "src/studies/flow_fit.hpp"
+#include "src/studies/flow_walls.hpp"
 #include "src/studies/published.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -74,6 +76,9 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, cons
                    false};
       figure.series.push_back(point);
     }
+    if (observable == Observable::z) continue;
+    const Series walls = wall_series(rows, engine, friction);
+    if (!walls.x.empty()) figure.series.push_back(walls);
   }
   return figure;
 }
@@ -89,6 +94,7 @@ std::vector<StudyRun> plan(StudySize size) {
     ShearScene scene;
     scene.engine = engine;
     scene.grains = quick ? 400 : 2000;
+    scene.contact_steps = quick ? 0 : sparing_steps;
     for (const double inertial_number : states) {
       scene.inertial_number = inertial_number;
       scene.strain = strain_at(inertial_number, quick);
@@ -97,6 +103,7 @@ std::vector<StudyRun> plan(StudySize size) {
       runs.push_back({engine_name(engine) + "_I_" + state, engine, {{"I", inertial_number}}, shear_scene(scene)});
     }
     add_volume_runs(runs, scene, quick);
+    add_wall_runs(runs, engine, quick);
   }
   return runs;
 }
@@ -112,6 +119,7 @@ StudyReport report(const std::vector<StudyRow>& rows) {
     report.add("Phi at I = 0.1 (" + engine_name(engine) + ")", value_of(middle, Observable::solid_fraction),
                "flow.Phi_at_0.1");
     report_volume(report, rows, engine, fit);
+    report_walls(report, rows, engine);
   }
   std::vector<Estimate> friction, dilatancy;
   for (const double state : values_of(rows, "I")) {
@@ -138,9 +146,11 @@ StudyReport report(const std::vector<StudyRow>& rows) {
   report.figures.back().figure.y_label = "z";
   report.figures.back().figure.series.erase(report.figures.back().figure.series.begin());
   report.remarks.emplace_back(
-      "lines are fitted over 0.01 <= I <= 0.2, to the realised I; the published ones are of layers between rough "
-      "walls, ours "
-      "of a homogeneous cell");
+      "lines are fitted over 0.01 <= I <= 0.2, to the realised I, of a homogeneous cell; the published ones are of "
+      "layers "
+      "between rough walls. Between walls: means over the layers of the middle half, whose errors are the scatter of "
+      "these "
+      "layers");
   return report;
 }
 

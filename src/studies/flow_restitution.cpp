@@ -7,6 +7,7 @@
 #include "src/engines.hpp"
 #include "src/studies/estimates.hpp"
 #include "src/studies/published.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -82,6 +83,7 @@ std::vector<StudyRun> plan(StudySize size) {
           ShearScene scene;
           scene.engine = engine;
           scene.grains = quick ? 200 : 2000;
+          scene.contact_steps = quick ? 0 : sparing_steps;
           scene.friction = friction;
           scene.restitution = restitution;
           scene.inertial_number = inertial_number;

@@ -14,14 +14,13 @@ namespace galet {
 namespace {
 
 constexpr double area_of_a_grain = 0.796;  ///< mean of pi d^2 / 4, diameters uniform in [0.8, 1.2]
-constexpr int contact_steps = 30;          ///< of md: mu* and Phi of flows don't tell 30 from 50
 
 std::string gradient_head(const std::string& title, EngineKind engine, int seed, const std::string& units, int grains) {
   return scene_head({title, engine, 2, seed, units, grains}) + "tangential_stiffness_ratio = 0.5\n";
 }
 
 std::string numerics(EngineKind engine, double cd_dt_factor) {
-  return engine == EngineKind::md ? fmt::format("\n[md]\nsteps_per_contact = {}\n", contact_steps)
+  return engine == EngineKind::md ? md_section(engine, sparing_steps)
                                   : fmt::format("\n[cd]\ntolerance = 1e-3\ndt_factor = {}\n", cd_dt_factor);
 }
 
@@ -111,6 +110,45 @@ profile_radii = [{3}, {4}]
                             scene.duration, std::lround(scene.gap), middle, inner, outer);
 }
 
+std::string wall_shear_scene(const WallShearScene& scene) {
+  // Between the centres of the walls: the disks at the density of the dense start, and half a diameter of either wall.
+  const double distance = scene.grains * area_of_a_grain / (0.785 * scene.length) + 1;
+  const double height = std::ceil(1.15 * distance + 2);  // flow dilates
+  std::string text = gradient_head(scene.title, scene.engine, 1, units_of_pressure, scene.grains);
+  text += fmt::format(R"(stiffness_level = {0}
+
+[initial]
+kind = "dense"
+
+[cell]
+size = [{1}, {2}]
+periodic = [true, false]
+
+[[body]]
+name = "lower wall"
+shape = "wall"
+at = 0.5
+
+[[body]]
+name = "upper wall"
+shape = "wall"
+at = {3:.6g}
+velocity = [{4:.6g}, 0.0]
+free = [false, true]
+force = [0.0, {5}]
+
+[loading]
+pressure = 1.0
+)",
+                      scene.stiffness_level, scene.length, height, 0.5 + distance, scene.inertial_number * distance,
+                      -scene.length);
+  text += numerics(scene.engine, scene.cd_dt_factor);
+  return text + fmt::format(
+                    "\n[run]\nduration = {}\naverage_from = 0.5\nsamples = 2000\n\n"
+                    "[output]\nmeasures = [\"profile\"]\nprofile_layers = {}\n",
+                    scene.duration, height);
+}
+
 std::vector<LocalState> layer_states(const std::vector<ProfileRow>& profile) {
   std::vector<LocalState> states;
   for (const ProfileRow& row : profile)
@@ -127,6 +165,16 @@ std::vector<LocalState> ring_states(const std::vector<ProfileRow>& profile) {
                       row.solid_fraction, shear * row.position * row.position});
   }
   return states;
+}
+
+Estimate mean_over(std::span<const LocalState> layers, double LocalState::*quantity) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (layers.size() < 3) return {none, none};
+  const double n = static_cast<double>(layers.size());
+  double mean = 0, square = 0;
+  for (const LocalState& layer : layers) mean += layer.*quantity / n;
+  for (const LocalState& layer : layers) square += std::pow(layer.*quantity - mean, 2) / (n - 1);
+  return {mean, std::sqrt(square)};
 }
 
 Estimate homogeneous_at(const std::vector<const StudyRow*>& flows, double inertial_number, Observable observable) {

@@ -40,6 +40,20 @@ struct AnnulusScene {
 };
 std::string annulus_scene(const AnnulusScene& scene);
 
+/// Plane shear between two walls of glued disks in a cell periodic along them: the lower one stands, the upper one
+/// moves at a speed and is pressed down by P. Dense start. Units: d = m = P = 1.
+struct WallShearScene {
+  std::string title;
+  EngineKind engine = EngineKind::md;
+  int grains = 2000;
+  double length = 44;            ///< of the walls
+  double inertial_number = 0.1;  ///< of the wall's speed over the distance of the walls
+  double stiffness_level = 1e4;  ///< ignored by rigid grains
+  double duration = 2000;        ///< of the run; the second half is averaged
+  double cd_dt_factor = 0.01;    ///< of the inertial time
+};
+std::string wall_shear_scene(const WallShearScene& scene);
+
 /// What a layer or ring has: |shear stress| / normal stress across it, I of that normal stress, Phi.
 struct LocalState {
   double position = 0, mu_star = 0, inertial_number = 0, solid_fraction = 0;
@@ -49,6 +63,10 @@ struct LocalState {
 std::vector<LocalState> layer_states(const std::vector<ProfileRow>& profile);
 /// Of rings: stress_theta,r, stress_rr, shear rate along theta.
 std::vector<LocalState> ring_states(const std::vector<ProfileRow>& profile);
+
+/// Mean over layers; its error is the scatter of single layers, not that of their mean: they fluctuate together. NaN of
+/// fewer than three.
+Estimate mean_over(std::span<const LocalState> layers, double LocalState::*quantity);
 
 /// The value of an observable at the inertial number I, on straight lines between the homogeneous flows (in I, the
 /// realised one); NaN outside of them.

@@ -13,6 +13,7 @@
 #include "src/studies/flow_fit.hpp"
 #include "src/studies/gradient_templates.hpp"
 #include "src/studies/published.hpp"
+#include "src/studies/scene_head.hpp"
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 
@@ -43,22 +44,12 @@ std::vector<LocalState> bulk_of(const StudyRow& row) {
 
 bool flows(const StudyRow& row) { return row[Observable::kinetic_per_grain].value > still; }
 
-/// Mean over the bulk; its error is the scatter of single layers, not that of their mean: they fluctuate together.
-Estimate bulk_mean(const std::vector<LocalState>& bulk, double LocalState::*quantity) {
-  if (bulk.size() < 3) return {none, none};
-  const double n = static_cast<double>(bulk.size());
-  double mean = 0, square = 0;
-  for (const LocalState& layer : bulk) mean += layer.*quantity / n;
-  for (const LocalState& layer : bulk) square += std::pow(layer.*quantity - mean, 2) / (n - 1);
-  return {mean, std::sqrt(square)};
-}
-
 /// Change from the lowest to the highest layer of the bulk along the fitted line, over the mean.
 Estimate change_in_depth(const std::vector<LocalState>& bulk, double LocalState::*quantity) {
   if (bulk.size() < 4) return {none, none};
   std::vector<LinePoint> points;
   for (const LocalState& layer : bulk) points.push_back({layer.position, {layer.*quantity, 0}});
-  const double scale = (bulk.back().position - bulk.front().position) / bulk_mean(bulk, quantity).value;
+  const double scale = (bulk.back().position - bulk.front().position) / mean_over(bulk, quantity).value;
   return scale * fit_line(points).slope;
 }
 
@@ -70,8 +61,8 @@ void report_flow(StudyReport& report, const StudyRow& row, const std::vector<con
   const double angle = row.plan.parameter("theta");
   const std::string of = fmt::format(", theta = {:g} ({})", angle, engine_name(row.plan.engine));
   const std::vector<LocalState> bulk = bulk_of(row);
-  const Estimate mu = bulk_mean(bulk, &LocalState::mu_star), number = bulk_mean(bulk, &LocalState::inertial_number),
-                 fraction = bulk_mean(bulk, &LocalState::solid_fraction), slope{slope_of(angle), 0}, one{1, 0};
+  const Estimate mu = mean_over(bulk, &LocalState::mu_star), number = mean_over(bulk, &LocalState::inertial_number),
+                 fraction = mean_over(bulk, &LocalState::solid_fraction), slope{slope_of(angle), 0}, one{1, 0};
   report.add("mu* of the bulk over tan theta, - 1" + of, ratio(mu, slope) - one, "slope.ratio");
   report.add("I, relative change through the bulk" + of, change_in_depth(bulk, &LocalState::inertial_number),
              "slope.uniform_I");
@@ -104,8 +95,8 @@ void report_steps(StudyReport& report, const std::vector<StudyRow>& rows, const 
   const StudyRow* soft = row_with(rows, EngineKind::md, {{"theta", refined_angle}});
   for (const StudyRow* row : rows_with(rows, EngineKind::cd, {{"theta", refined_angle}})) {
     if (!soft) break;
-    const Estimate difference = bulk_mean(bulk_of(*soft), &LocalState::inertial_number) -
-                                bulk_mean(bulk_of(*row), &LocalState::inertial_number);
+    const Estimate difference = mean_over(bulk_of(*soft), &LocalState::inertial_number) -
+                                mean_over(bulk_of(*row), &LocalState::inertial_number);
     report.add(fmt::format("mu* of cd over md at the same I, - 1, theta = {:g}, dt = {:g} sqrt(d / g)", refined_angle,
                            row->plan.parameter("dt")),
                law.b.value / slope_of(refined_angle) * difference, "flow.engines");
@@ -128,9 +119,9 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable, doub
     for (const StudyRow* row : slopes(rows, engine)) {
       if (!flows(*row)) continue;
       const auto bulk = bulk_of(*row);
-      layers.x.push_back(bulk_mean(bulk, &LocalState::inertial_number).value);
-      layers.y.push_back(bulk_mean(bulk, quantity).value);
-      layers.y_error.push_back(bulk_mean(bulk, quantity).error);
+      layers.x.push_back(mean_over(bulk, &LocalState::inertial_number).value);
+      layers.y.push_back(mean_over(bulk, quantity).value);
+      layers.y_error.push_back(mean_over(bulk, quantity).error);
     }
     if (!layers.x.empty()) figure.series.push_back(layers);
   }
@@ -187,6 +178,7 @@ std::vector<StudyRun> plan(StudySize size) {
       ShearScene scene;
       scene.engine = engine;
       scene.grains = quick ? 400 : 2000;
+      scene.contact_steps = quick ? 0 : sparing_steps;
       scene.stiffness_level = quick ? 1e3 : 1e4;
       scene.inertial_number = state;
       scene.strain = quick ? 20 : 60;

@@ -26,4 +26,9 @@ restitution = {}
                      head.diameter, head.friction, head.restitution);
 }
 
+std::string md_section(EngineKind engine, int contact_steps) {
+  if (engine != EngineKind::md || contact_steps == 0) return "";
+  return fmt::format("\n[md]\nsteps_per_contact = {}\n", contact_steps);
+}
+
 }  // namespace galet

@@ -25,4 +25,10 @@ struct SceneHead {
 };
 std::string scene_head(const SceneHead& head);
 
+/// Steps per contact of md where its runs are long: means of flows and packings at rest don't tell them from the
+/// default, 50 (docs/theory.md).
+inline constexpr int sparing_steps = 30;
+/// The section [md] of a scene of md with so many steps per contact; empty for cd, and for 0: the default.
+std::string md_section(EngineKind engine, int contact_steps);
+
 }  // namespace galet

@@ -60,7 +60,7 @@ inline constexpr Study flow_law_study{
     "Roux and Chevoir 2010, sec. 3.1 and 3.2 (da Cruz et al. 2005)",
     "disks +-20 %, mu = 0.4, e = 0.1, K_T = K_N / 2, kappa = 1e4 (md) or rigid (cd); periodic cell, sheared at "
     "constant "
-    "pressure, and once at the volume that the pressure gave. Published runs: rough walls.",
+    "pressure, and once at the volume that the pressure gave; between rough walls, as the published runs.",
     Observable::mu_star,
     flow_law::plan,
     flow_law::report};

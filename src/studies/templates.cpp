@@ -68,6 +68,7 @@ std::string shear_scene(const ShearScene& scene) {
   const bool staged = scene.dense_strain > 0 || scene.volume_strain > 0;
   text += "\n[loading]\npressure = 1.0\n";
   if (!staged) text += fmt::format("kind = \"plane_shear\"\ninertial_number = {}\n", scene.inertial_number);
+  text += md_section(scene.engine, scene.contact_steps);
   if (scene.engine == EngineKind::cd)
     text += fmt::format("\n[cd]\ntolerance = 1e-3\n{}{}", scene.compliance ? "compliance = true\n" : "",
                         scene.cd_dt_factor > 0 ? fmt::format("dt_factor = {}\n", scene.cd_dt_factor) : "");

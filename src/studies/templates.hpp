@@ -27,6 +27,7 @@ struct ShearScene {
   double volume_strain = 0;  ///< > 0: a last stage of this strain at held volume, in which averages are taken
   bool compliance = false;   ///< cd: contacts have the material's stiffness
   double cd_dt_factor = 0;   ///< > 0: in place of the default
+  int contact_steps = 0;     ///< of md; 0: the default
 };
 std::string shear_scene(const ShearScene& scene);
 

@@ -1,6 +1,8 @@
 // Triaxial compression of spheres: peak friction angle and dilatancy against the friction of contacts, and what a
-// stiffness level does to the states A and C (strain intervals of type I and II).
+// stiffness level does to the states A and C. What leads to the peak and what is left on the way, in
+// triaxial_parts.hpp.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,13 +17,14 @@
 #include "src/studies/studies.hpp"
 #include "src/studies/templates.hpp"
 #include "src/studies/triaxial_curve.hpp"
+#include "src/studies/triaxial_parts.hpp"
 
 namespace galet::triaxial {
 
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double reference_level = 8400, stiff_level = 39000;
+constexpr std::array other_levels = {39000.0, 18000.0, 3900.0, 1800.0};  ///< of P = 10, 32, 320 and 1000 kPa
 
 /// q/P at the peak and dilatancy D = -d eps_v / d eps_a there, from means over windows of 0.01 in strain: single rows
 /// fluctuate, and the largest of many noisy values is above the peak.
@@ -51,21 +54,6 @@ Peak peak_of(const TriaxialCurve& curve) {
 /// phi in degrees with q/P = 2 sin phi / (1 - sin phi).
 double friction_angle(double deviator) { return std::asin(deviator / (2 + deviator)) * 180 / std::numbers::pi; }
 
-/// q/P at an axial strain, by linear interpolation.
-double deviator_at(const TriaxialCurve& curve, double strain) {
-  for (std::size_t k = 1; k < curve.strain.size(); ++k)
-    if (curve.strain[k] >= strain && curve.strain[k - 1] < strain) {
-      const double t = (strain - curve.strain[k - 1]) / (curve.strain[k] - curve.strain[k - 1]);
-      return curve.deviator[k - 1] + t * (curve.deviator[k] - curve.deviator[k - 1]);
-    }
-  return none;
-}
-
-Estimate over_seeds(const std::vector<const StudyRow*>& rows,
-                    const std::function<double(const TriaxialCurve&)>& number) {
-  return mean_over(rows, [&](const StudyRow& row) { return number(triaxial_curve(row)); });
-}
-
 std::vector<const StudyRow*> rows_of(const std::vector<StudyRow>& rows, EngineKind engine, char state, double friction,
                                      double level) {
   return rows_with(rows, engine, {{"state", state}, {"mu", friction}, {"kappa", level}});
@@ -88,25 +76,29 @@ void report_peaks(StudyReport& report, const std::vector<StudyRow>& rows) {
   const Estimate one{1, 0}, reference = deviator(EngineKind::md, 'A', reference_level);
   report.add("peak q/P of C over A, - 1, mu = 0.3 (md)",
              ratio(deviator(EngineKind::md, 'C', reference_level), reference) - one, "triaxial.same_peak");
-  report.add("peak q/P at kappa = 39000 over 8400, - 1, A (md)",
-             ratio(deviator(EngineKind::md, 'A', stiff_level), reference) - one, "triaxial.same_peak");
+  for (const char state : {'A', 'C'})
+    for (const double level : other_levels)
+      if (!rows_of(rows, EngineKind::md, state, 0.3, level).empty())
+        report.add(
+            fmt::format("peak q/P at kappa = {:g} over 8400, - 1, {} (md)", level, state),
+            ratio(deviator(EngineKind::md, state, level), deviator(EngineKind::md, state, reference_level)) - one,
+            "triaxial.same_peak");
   report.add("peak q/P of rigid grains over md, - 1, A", ratio(deviator(EngineKind::cd, 'A', 0), reference) - one,
              "triaxial.same_peak");
 }
 
-/// Strains of type I are those of the contacts and go as 1/kappa; those of type II come from rearrangement.
-void report_types(StudyReport& report, const std::vector<StudyRow>& rows) {
+/// Strains of type II come from rearrangement and don't depend on kappa; A resists, C yields.
+void report_states(StudyReport& report, const std::vector<StudyRow>& rows) {
   const auto at = [&](char state, double level, double strain) {
     return over_seeds(rows_of(rows, EngineKind::md, state, 0.3, level),
                       [&](const TriaxialCurve& curve) { return deviator_at(curve, strain); });
   };
-  constexpr double early = 2, late = 0.005;
+  constexpr double late = 0.005;
   const Estimate one{1, 0};
-  report.add("A: q/P at kappa strain = 2, kappa = 39000 over 8400, - 1",
-             ratio(at('A', stiff_level, early / stiff_level), at('A', reference_level, early / reference_level)) - one,
-             "triaxial.type_I");
-  report.add("C: q/P at strain 0.005, kappa = 39000 over 8400, - 1",
-             ratio(at('C', stiff_level, late), at('C', reference_level, late)) - one, "triaxial.type_II");
+  for (const double level : other_levels)
+    if (!rows_of(rows, EngineKind::md, 'C', 0.3, level).empty())
+      report.add(fmt::format("C: q/P at strain 0.005, kappa = {:g} over 8400, - 1", level),
+                 ratio(at('C', level, late), at('C', reference_level, late)) - one, "triaxial.type_II");
   report.add("q/P of A minus C at strain 0.001, kappa = 8400",
              at('A', reference_level, 1e-3) - at('C', reference_level, 1e-3), "triaxial.stiffer");
 }
@@ -115,7 +107,7 @@ Figure curve_figure(const std::vector<StudyRow>& rows, bool deviator) {
   Figure figure{
       "Triaxial compression of spheres", "axial strain", deviator ? "q / P" : "volume strain", false, false, {}};
   for (const StudyRow& row : rows) {
-    if (row.plan.parameter("seed") != 1) continue;
+    if (row.plan.parameter("seed") != 1 || std::isnan(row.plan.parameter("mu"))) continue;
     const TriaxialCurve curve = triaxial_curve(row);
     Series series;
     series.label = fmt::format("{}, {}, mu = {:g}", engine_name(row.plan.engine),
@@ -135,38 +127,42 @@ std::vector<StudyRun> plan(StudySize size) {
   const bool quick = size == StudySize::quick;
   std::vector<StudyRun> runs;
   const auto add = [&](EngineKind engine, char state, double friction, double level) {
-    for (const int seed : quick ? std::vector{1, 2} : std::vector{1, 2, 3}) {
-      SolidScene scene;
-      scene.engine = engine;
-      scene.grains = quick ? 300 : 4000;
-      scene.seed = seed;
+    for (const int seed : seeds_of(quick)) {
+      SolidScene scene = solid_sample(engine, level, seed, quick);
       scene.friction = friction;
-      scene.stiffness_level = level > 0 ? level : reference_level;
-      scene.equilibrium = engine == EngineKind::md && !quick ? 1e-7 : 1e-6;
       const std::string name = fmt::format("{}_{}_mu_{:g}{}_seed_{}", engine_name(engine), state, friction,
                                            level > 0 ? "_kappa_" + plain_number(level) : "", seed);
       scene.title = "triaxial: " + name;
       runs.push_back({name,
                       engine,
                       {{"state", state}, {"mu", friction}, {"kappa", level}, {"seed", seed}},
-                      assembly_scene(scene, state) + triaxial_stage(quick ? 0.06 : 0.1, quick ? 2e-3 : 5e-4),
+                      assembly_scene(scene, state) + triaxial_stage(quick ? 0.06 : 0.1, usual_rate(quick)),
                       true});
     }
   };
   for (const double friction : {0.0, 0.3, 0.5, 1.0}) add(EngineKind::md, 'A', friction, reference_level);
-  add(EngineKind::md, 'A', 0.3, stiff_level);
-  add(EngineKind::md, 'C', 0.3, reference_level);
-  add(EngineKind::md, 'C', 0.3, stiff_level);
+  for (const char state : {'A', 'C'}) {
+    if (state == 'C') add(EngineKind::md, state, 0.3, reference_level);
+    for (const double level : other_levels)
+      if (!quick || level == stiff_level || level == other_levels.back()) add(EngineKind::md, state, 0.3, level);
+  }
   add(EngineKind::cd, 'A', 0.3, 0);
+  add_quasistatic_runs(runs, quick);
+  add_creep_runs(runs, quick);
+  add_ramp_runs(runs, quick);
   return runs;
 }
 
 StudyReport report(const std::vector<StudyRow>& rows) {
   StudyReport report;
   report_peaks(report, rows);
-  report_types(report, rows);
+  report_states(report, rows);
+  report_quasistatic(report, rows);
+  report_creep(report, rows);
+  report_ramps(report, rows);
   report.figures.push_back({"deviator", curve_figure(rows, true)});
   report.figures.push_back({"volume", curve_figure(rows, false)});
+  report.figures.push_back({"type_I", ramp_figure(rows)});
   report.remarks.emplace_back(
       "figures show seed 1; findings are means over the seeds, with the error of their scatter; "
       "kappa = 0 stands for rigid grains");

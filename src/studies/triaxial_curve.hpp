@@ -12,8 +12,14 @@ struct TriaxialCurve {
   std::vector<double> strain, volume, deviator;
 };
 
-/// Of the last stage, if it is called "triaxial"; empty otherwise.
+/// Of the stage called "triaxial"; empty without one, and when no stage is before it.
 TriaxialCurve triaxial_curve(const StudyRow& row);
+
+/// q/P at an axial strain, by linear interpolation; NaN beyond the curve.
+double deviator_at(const TriaxialCurve& curve, double strain);
+
+/// Axial strain at which q/P is first reached, by linear interpolation; NaN where it is not.
+double strain_at(const TriaxialCurve& curve, double deviator);
 
 /// Mean of q/P over the rows with least <= strain <= most; NaN without any.
 double mean_deviator(const TriaxialCurve& curve, double least, double most);

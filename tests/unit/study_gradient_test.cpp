@@ -87,6 +87,14 @@ TEST(StudyGradient, ScenesHoldWhatTheyAreAskedFor) {
   EXPECT_EQ(plane.loading.inclination, 21);
   EXPECT_EQ(plane.cd.dt_factor, 0.005);
   EXPECT_EQ(plane.output.profile_layers, static_cast<int>(plane.cell.size[1]));
+  WallShearScene walls;
+  walls.grains = 1000, walls.length = 30, walls.inertial_number = 0.2;
+  const Scene shear = parse_scene(wall_shear_scene(walls), "walls");
+  ASSERT_EQ(shear.bodies.size(), 2u);
+  const double distance = *shear.bodies[1].at - *shear.bodies[0].at;
+  EXPECT_NEAR(shear.bodies[1].velocity[0], 0.2 * distance, 1e-4);
+  EXPECT_EQ(shear.bodies[1].force[1], -30);                             // P times the length
+  EXPECT_GT(shear.cell.size[1], *shear.bodies[1].at + 0.1 * distance);  // room to dilate
 }
 
 /// An annulus whose rings obey the law of homogeneous shear, or lie `below` it at every I.
@@ -131,6 +139,39 @@ TEST(StudyGradient, AnnulusFindsTheDeviationThatIsThere) {
   EXPECT_EQ(finding(report, "|mu*, local minus homogeneous|, smallest less largest R_i at I = 0.06")->verdict,
             Verdict::agrees);
   EXPECT_EQ(finding(report, "I where mu* falls below")->verdict, Verdict::agrees);
+}
+
+/// Layers between walls at 0.5 and 20.5 that obey the law of homogeneous shear but for `above` in mu*; layers next to
+/// the walls are wrong by much, and what is above the upper wall is empty.
+StudyRow walls_row(double number, double above) {
+  StudyRow row = with_parameters(EngineKind::md, {{"walls", 1}, {"I_walls", number}});
+  for (int k = 0; k < 24; ++k) {
+    ProfileRow layer;
+    layer.position = 0.5 + k;
+    const bool bulk = k > 4 && k < 16;
+    layer.stress(1, 1) = k <= 20 ? 1 : 0, layer.stress(0, 1) = k <= 20 ? -(0.26 + 1.1 * number + above) : 0;
+    layer.shear_rate = Vec<3>(bulk ? number : 3 * number, 0, 0);
+    layer.solid_fraction = bulk ? 0.82 - 0.37 * number : k <= 20 ? 0.7 : 0;
+    row.run.measures.profile.push_back(layer);
+  }
+  return row;
+}
+
+TEST(StudyGradient, WallsFindTheDeviationThatIsThere) {
+  std::vector<StudyRow> rows;
+  for (const double state : {0.01, 0.02, 0.04, 0.08, 0.16}) rows.push_back(homogeneous_row(EngineKind::md, state));
+  rows.push_back(walls_row(0.06, 0.03));
+  const StudyReport report = find_study("flow-law").evaluate(rows);
+  const StudyFinding *friction = finding(report, "mu* between walls minus the cell's, I = 0.060 (md)"),
+                     *fraction = finding(report, "Phi between walls minus the cell's, I = 0.060 (md)"),
+                     *law = finding(report, "mu* between walls minus the published law, I = 0.060 (md)");
+  ASSERT_TRUE(friction && fraction && law);
+  EXPECT_NEAR(friction->ours.value, 0.03, 1e-12);
+  EXPECT_EQ(friction->verdict, Verdict::differs);
+  EXPECT_NEAR(fraction->ours.value, 0, 1e-12);
+  EXPECT_EQ(fraction->verdict, Verdict::agrees);
+  EXPECT_NEAR(law->ours.value, 0.03, 1e-12);  // the rows' law is the published one
+  EXPECT_EQ(finding(report, "mu* between walls minus the cell's, I = 0.060 (cd)"), nullptr);
 }
 
 /// A layer of depth 15 that obeys the law, with I = (tan - 0.26) / 1.1 in each layer.

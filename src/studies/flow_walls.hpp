@@ -1,0 +1,19 @@
+// Part of the study `flow-law`: plane shear between rough walls, as the published runs have it.
+#pragma once
+
+#include <vector>
+
+#include "src/studies/study.hpp"
+
+namespace galet::flow_law {
+
+/// Runs between walls (parameters walls = 1, I_walls: speed of the wall over their distance).
+void add_wall_runs(std::vector<StudyRun>& runs, EngineKind engine, bool quick);
+
+/// mu* and Phi in the middle half between the walls: less those of the cell at the same I, and less the published laws.
+void report_walls(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine);
+
+/// mu* or Phi of the middle half against its I; empty without rows.
+Series wall_series(const std::vector<StudyRow>& rows, EngineKind engine, bool friction);
+
+}  // namespace galet::flow_law
