@@ -1,6 +1,7 @@
 // A guess of what a run will cost, from its size alone: time = grains * steps * (time per grain and step). The rates
-// are those of one core of a 2020s desktop in a dense flow with friction; expect a factor of 2 or 3 either way. The
-// rigid engine's rate follows the number of sweeps that its tolerance needs.
+// are those of one core of a 2020s server in the studies' quick sizes; expect a factor of 2 or 3 either way. The rigid
+// engine's rate follows the number of sweeps that its tolerance needs. A stage that a state of rest ends counts with
+// the time that packings take to get there, not with its bound.
 #pragma once
 
 #include "common/scene/derive.hpp"
@@ -10,7 +11,7 @@ namespace galet {
 
 struct CostEstimate {
   double dt = 0;
-  long steps = 0;
+  long steps = 0;      ///< at most
   double seconds = 0;  ///< of one core, for the run proper
 };
 

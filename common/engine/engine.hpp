@@ -70,8 +70,8 @@ class Engine {
   /// Takes `count` steps. Throws RunError, naming the grain or contact, when the state is no longer sound.
   virtual void advance(long count) = 0;
 
-  /// Goes on under another loading: the cell's drives, gravity and the friction coefficients of `scene`, the same scene
-  /// in all else. Grains, contacts and what they remember stay; components driven in stress keep their rate.
+  /// Goes on under another loading: the cell's drives, gravity, friction coefficients and restitutions of `scene`, the
+  /// same scene in all else. Grains, contacts and what they remember stay; components driven in stress keep their rate.
   virtual void change(const Scene& scene, const Derived& derived) = 0;
 
   /// State at the end of the last step. Before the first step the contact columns are empty.

@@ -211,6 +211,11 @@ void add_stages(Rows& rows) {
                   .range = at_least(0),
                   .fallback = "the material's",
                   .doc = "friction of [material] in this stage: 0 while assembling gives the densest packings"});
+  rows.push_back({.path = "stage.restitution",
+                  .target = [](Scene& s) -> FieldTarget { return &s.stages.back().restitution; },
+                  .range = between(0, 1),
+                  .fallback = "the material's",
+                  .doc = "restitution of [material] in this stage, in place of its restitution or damping ratio"});
   add_loading_rows<of_stage>(rows, "stage.loading", "the pressure held in this stage", "`loading.pressure`");
   add_drive_rows<of_stage>(rows, "stage.drive");
 }

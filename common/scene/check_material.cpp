@@ -188,6 +188,8 @@ void check_material(Report& report) {
   check_engine_laws(report);
   check_compliance(report);
   for (std::size_t k = 0; k < scene.other_materials.size(); ++k) check_other_material(report, k);
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    check_restitution(report, fmt::format("stage[{}].", k), scene.stages[k].restitution);
 }
 
 // ---- names -------------------------------------------------------------------------------------------------

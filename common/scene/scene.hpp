@@ -277,7 +277,8 @@ struct RunSpec : EndSpec {
 struct StageSpec : EndSpec {
   std::string name = {};  ///< default: its number
   LoadingSpec loading = {};
-  std::optional<double> friction = {};  ///< of [material] in this stage
+  std::optional<double> friction = {};     ///< of [material] in this stage
+  std::optional<double> restitution = {};  ///< likewise
 };
 
 /// What a run measures and writes beyond the series of every run. Nothing of it changes the state that is reached.

@@ -20,6 +20,7 @@ std::vector<Scene> stage_scenes(const Scene& scene) {
     if (one.loading.gravity.empty()) one.loading.gravity = scene.loading.gravity;
     if (!one.loading.inclination) one.loading.inclination = scene.loading.inclination;
     if (stage.friction) one.material.friction = *stage.friction;
+    if (stage.restitution) one.material.restitution = stage.restitution, one.material.damping_ratio.reset();
     static_cast<EndSpec&>(one.run) = stage;
     scenes.push_back(std::move(one));
   }

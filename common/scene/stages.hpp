@@ -1,4 +1,5 @@
-// The stages of a run. Each is a scene of its own, with the stage's loading, end and friction; a scene without
+// The stages of a run. Each is a scene of its own, with the stage's loading, end, friction and restitution; a scene
+// without
 // [[stage]] entries is one stage. The state goes from stage to stage as it is (Engine::change): grains, contacts and
 // what they remember, and the rates of the components that stay driven in stress.
 //

@@ -85,10 +85,15 @@ Outlook outlook_of(const Scene& scene) {
   return outlook;
 }
 
+std::string restitution_text(const MaterialSpec& material) {
+  if (material.restitution) return short_number(*material.restitution);
+  return fmt::format("zeta {}", short_number(*material.damping_ratio));
+}
+
 /// What each stage drives, and for how long.
 std::string stages_text(const Outlook& outlook) {
   if (outlook.scene.stages.empty()) return "";
-  TextTable table({"stage", "at most", "mu", "drives", "ends"});
+  TextTable table({"stage", "at most", "mu", "e", "drives", "ends"});
   const std::vector<Scene> scenes = stage_scenes(outlook.scene);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const EndSpec& end = scenes[k].run;
@@ -106,8 +111,8 @@ std::string stages_text(const Outlook& outlook) {
     if (end.until_strain) ends += fmt::format("strain {} {:g} ", end.until, *end.until_strain);
     if (end.cycles > 0) drives += fmt::format(", {} cycles", end.cycles);
     table.add({stage_name(outlook.scene, k), short_number(outlook.stages[k].duration),
-               short_number(scenes[k].material.friction), drives.empty() ? "nothing" : drives,
-               ends.empty() ? "-" : ends});
+               short_number(scenes[k].material.friction), restitution_text(scenes[k].material),
+               drives.empty() ? "nothing" : drives, ends.empty() ? "-" : ends});
   }
   return "\n" + table.text();
 }

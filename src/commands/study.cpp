@@ -58,10 +58,7 @@ int list_studies(bool json) {
     std::getline(lines, line);
     fmt::print("{}  {}\n", line, title);
   }
-  fmt::print(
-      "\nTimes are estimates from sizes alone, of one core: a factor of 2 or 3 either way, and an upper bound where "
-      "states "
-      "come to rest before their time is over.\n");
+  fmt::print("\nTimes are estimates from sizes alone, of one core: a factor of 2 or 3 either way.\n");
   return 0;
 }
 

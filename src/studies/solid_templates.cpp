@@ -112,10 +112,10 @@ std::string oedometric_stages(const SolidScene& scene, double level) {
          ramp_and_rest(scene, "unloaded", "oedometric", "axial_stress", stress, 1);
 }
 
-std::string triaxial_stage(double strain, double inertial_number) {
+std::string triaxial_stage(double strain, double inertial_number, const std::string& more) {
   return fmt::format(
-      "\n[[stage]]\nname = \"triaxial\"\nstrain = {}\nloading = {{kind = \"triaxial\", inertial_number = {}}}\n",
-      strain, inertial_number);
+      "\n[[stage]]\nname = \"triaxial\"\n{}strain = {}\nloading = {{kind = \"triaxial\", inertial_number = {}}}\n",
+      more, strain, inertial_number);
 }
 
 std::string ramp_stage(double deviator, double duration) {

@@ -45,8 +45,9 @@ std::string compression_stages(const SolidScene& scene, const std::vector<double
 /// stages that end at rest are called "loaded" and "unloaded".
 std::string oedometric_stages(const SolidScene& scene, double level);
 
-/// A further stage called "triaxial": axial strain at the rate of the inertial number, lateral stresses held.
-std::string triaxial_stage(double strain, double inertial_number);
+/// A further stage called "triaxial": axial strain at the rate of the inertial number, lateral stresses held; `more` is
+/// for further lines of the stage.
+std::string triaxial_stage(double strain, double inertial_number, const std::string& more = "");
 
 /// A further stage called "triaxial": the axial stress goes from P to P + `deviator` in a time, lateral stresses held.
 /// A strain of 0.02 ends it before.

@@ -20,7 +20,7 @@ constexpr double within = 0.4;            ///< q/P where strains of type I are c
 constexpr double failed = 1e-3;           ///< strain that contacts alone don't give at kappa of 8400 and more
 /// What the solver leaves of each contact's problem lets rigid grains creep: at 1e-4 by 2e-4 before the structure
 /// breaks, at 1e-5, 1e-6 and 1e-7 by 1e-4, 9e-6 and 1e-6 (300 spheres, 160 inertial times).
-constexpr double rigid_tolerance = 1e-6;
+constexpr double creepless_tolerance = 1e-6;
 
 struct Ramp {
   EngineKind engine;
@@ -44,7 +44,7 @@ void add_ramp_runs(std::vector<StudyRun>& runs, bool quick) {
       SolidScene scene = solid_sample(engine, level, seed, quick);
       scene.compliance = engine == EngineKind::cd && level > 0;
       scene.samples = 400;
-      if (engine == EngineKind::cd && level == 0) scene.tolerance = rigid_tolerance;
+      scene.tolerance = creepless_tolerance;
       const std::string name =
           fmt::format("{}_ramp{}_seed_{}", engine_name(engine), level > 0 ? "_kappa_" + plain_number(level) : "", seed);
       scene.title = "triaxial: " + name;

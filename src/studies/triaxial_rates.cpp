@@ -14,9 +14,9 @@ namespace galet::triaxial {
 
 namespace {
 
-constexpr double usual_restitution = 0.2, other_restitution = 0.9;
-constexpr double least_strain = 0.002, most_strain = 0.02;  ///< between which q/P is compared
-constexpr double creep_strain = 0.002;                      ///< before creep
+constexpr double usual_restitution = 0.2, other_restitution = 1;  ///< zeta = 0
+constexpr double least_strain = 0.002, most_strain = 0.02;        ///< between which q/P is compared
+constexpr double creep_strain = 0.002;                            ///< before creep
 constexpr std::array engines = {EngineKind::md, EngineKind::cd};
 
 /// Slower and faster than the usual rate.
@@ -57,13 +57,13 @@ void add_quasistatic_runs(std::vector<StudyRun>& runs, bool quick) {
   const auto add = [&](double rate, double restitution) {
     for (const int seed : seeds_of(quick)) {
       SolidScene scene = solid_sample(EngineKind::md, reference_level, seed, quick);
-      scene.restitution = restitution;
       const std::string name = fmt::format("md_A_I_{}_e_{:g}_seed_{}", plain_number(rate), restitution, seed);
       scene.title = "triaxial: " + name;
       runs.push_back({name,
                       EngineKind::md,
                       {{"I", rate}, {"e", restitution}, {"seed", seed}},
-                      assembly_scene(scene, 'A') + triaxial_stage(most_strain, rate),
+                      assembly_scene(scene, 'A') +
+                          triaxial_stage(most_strain, rate, fmt::format("restitution = {}\n", restitution)),
                       true});
     }
   };

@@ -95,6 +95,7 @@ TEST(LoadingPresets, ChangingStressIsALoadThatMoves) {
 const std::string two_stages = base + R"([[stage]]
 name = "assembly"
 friction = 0
+restitution = 0.9
 duration = 100
 unbalanced = 1e-3
 [stage.loading]
@@ -121,6 +122,10 @@ TEST(SceneStages, AreScenesOfTheirOwn) {
   EXPECT_EQ(stage_name(scene, 1), "stage 2");
   EXPECT_EQ(stages[0].material.friction, 0);
   EXPECT_EQ(stages[1].material.friction, 0.3);
+  EXPECT_EQ(stages[0].material.restitution, 0.9);
+  EXPECT_EQ(stages[1].material.restitution, scene.material.restitution);
+  EXPECT_EQ(stages[0].material.damping_ratio, std::nullopt);
+  EXPECT_EQ(stages[1].material.damping_ratio, scene.material.damping_ratio);
   EXPECT_EQ(stages[0].loading.pressure, 2);
   EXPECT_EQ(stages[1].loading.pressure, 3);
   EXPECT_EQ(stages[0].run.unbalanced, 1e-3);
