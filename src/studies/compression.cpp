@@ -81,7 +81,7 @@ std::vector<StudyRun> plan(StudySize size) {
         scene.engine = engine;
         scene.grains = quick ? 300 : 4000;
         scene.seed = seed;
-        scene.equilibrium = engine == EngineKind::md ? 1e-7 : 1e-6;
+        scene.equilibrium = rest_of(engine);
         scene.title = fmt::format("compression: {}, state {}, seed {}", engine_name(engine), state, seed);
         std::string text = assembly_scene(scene, state);
         if (engine == EngineKind::md) text += compression_stages(scene, levels);

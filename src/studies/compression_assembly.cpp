@@ -27,7 +27,7 @@ StudyRun assembly_run(EngineKind engine, double rate, double restitution, int gr
   scene.grains = grains;
   scene.seed = seed;
   scene.restitution = restitution;
-  scene.equilibrium = 1e-6;
+  scene.equilibrium = rest_of(engine);
   const std::string name = fmt::format("{}_assembly_I_{}_e_{:g}_N_{}_seed_{}", engine_name(engine), plain_number(rate),
                                        restitution, grains, seed);
   scene.title = "compression: " + name;

@@ -66,13 +66,13 @@ void report_cycles(StudyReport& report, const std::vector<StudyRow>& rows) {
     const std::string letter(1, state);
     report.add(fmt::format("strain of {} left after an isotropic cycle, of its largest", state),
                strain_left(isotropic, Observable::eps_v, letter, top_of(isotropic), "back"), "compression.left");
-    report.add(fmt::format("axial strain of {} left after an oedometric cycle, of its largest", state),
-               strain_left(oedometric, Observable::eps_zz, letter, "loaded", "unloaded"), "compression.left");
-    if (state != 'A') continue;
     const Estimate loaded = mean_at_stage(oedometric, "loaded", Observable::z),
-                   start = mean_at_stage(oedometric, letter, Observable::z);
-    report.add(fmt::format("z of A under the axial stress of kappa = {:g} over 39000, - 1", oedometric_level),
-               ratio(loaded, start) - Estimate{1, 0}, "compression.growth_A");
+                   start = mean_at_stage(oedometric, letter, Observable::z),
+                   left = strain_left(oedometric, Observable::eps_zz, letter, "loaded", "unloaded");
+    report.add(fmt::format("z of {} under the axial stress of kappa = {:g} over 39000, - 1", state, oedometric_level),
+               ratio(loaded, start) - Estimate{1, 0}, "compression.moderate",
+               fmt::format("a cycle leaves {:.3f} +- {:.3f} of its axial strain", left.value, left.error));
+    if (state != 'A') continue;
     report.add(
         "z* of A after an isotropic cycle, less before",
         mean_at_stage(isotropic, "back", Observable::z_star) - mean_at_stage(isotropic, letter, Observable::z_star),

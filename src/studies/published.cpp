@@ -95,6 +95,7 @@ constexpr std::array table = {
     Published{"compression.growth_A", Claim::equal, 0.05, 0.01, chapter, "\"about 5 %\""},
     Published{"compression.z_2000", Claim::equal, 4.8, 0.1, chapter, "\"approaching 4.8\""},
     Published{"compression.left", Claim::at_most, 0.1, 0, chapter, "\"very little irreversible strain\": a tenth"},
+    Published{"compression.moderate", Claim::equal, 0, 0.1, chapter, "\"moderate and progressive\": a tenth"},
     Published{"compression.cycle_z", Claim::at_most, 0, 0, chapter, "\"a high z may decrease in a cycle\""},
     Published{"compression.assembly_Phi", Claim::equal, 0, 0.003, chapter,
               "\"on mu only\", I up to 1e-4: a tenth of what friction does"},

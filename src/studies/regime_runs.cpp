@@ -120,7 +120,7 @@ RegimeRow regime_row(Regime regime, StudySize size) {
 std::vector<Quantity> quantities_of(Regime regime) {
   if (is_flow(regime)) return {{"mu*", 0.05}, {"Phi", 0.01}};
   if (regime == Regime::assembly) return {{"Phi", 0.005}, {"z*", 0.05}};
-  return {{regime == Regime::type_I ? "strain at q/P = 0.4" : "q/P at strains of 2e-3 to 6e-3", 0.2}};
+  return {{regime == Regime::type_I ? "strain from q/P = 0.1 to 0.4" : "q/P at strains of 2e-3 to 6e-3", 0.2}};
 }
 
 int samples_of(Regime regime, StudySize size) {

@@ -25,7 +25,7 @@ std::vector<const StudyRow*> rows_of(const std::vector<StudyRow>& rows, Regime r
 
 /// A quantity of one sample of a regime that is no flow.
 double of_sample(const StudyRow& row, Regime regime, std::size_t quantity) {
-  if (regime == Regime::type_I) return strain_at(triaxial_curve(row), 0.4);
+  if (regime == Regime::type_I) return type_I_strain(triaxial_curve(row));
   if (regime == Regime::type_II) return mean_deviator(triaxial_curve(row), 2e-3, 6e-3);
   return row.run.last[quantity == 0 ? Observable::solid_fraction : Observable::z_star];
 }

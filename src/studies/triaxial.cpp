@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -103,22 +104,44 @@ void report_states(StudyReport& report, const std::vector<StudyRow>& rows) {
              at('A', reference_level, 1e-3) - at('C', reference_level, 1e-3), "triaxial.stiffer");
 }
 
-Figure curve_figure(const std::vector<StudyRow>& rows, bool deviator) {
-  Figure figure{
-      "Triaxial compression of spheres", "axial strain", deviator ? "q / P" : "volume strain", false, false, {}};
+/// Curves of seed 1 of the rows that `shown` picks, with their names.
+Figure curve_figure(const std::string& title, const std::vector<StudyRow>& rows, bool deviator,
+                    const std::function<std::string(const StudyRun&)>& shown) {
+  Figure figure{title, "axial strain", deviator ? "q / P" : "volume strain", false, false, {}};
   for (const StudyRow& row : rows) {
     if (row.plan.parameter("seed") != 1 || std::isnan(row.plan.parameter("mu"))) continue;
     const TriaxialCurve curve = triaxial_curve(row);
-    Series series;
-    series.label = fmt::format("{}, {}, mu = {:g}", engine_name(row.plan.engine),
-                               static_cast<char>(row.plan.parameter("state")), row.plan.parameter("mu"));
-    if (row.plan.parameter("kappa") > 0) series.label += fmt::format(", kappa = {:g}", row.plan.parameter("kappa"));
-    series.line = true;
-    series.x = curve.strain;
-    series.y = deviator ? curve.deviator : curve.volume;
-    if (!series.x.empty()) figure.series.push_back(series);
+    const std::string label = shown(row.plan);
+    if (label.empty() || curve.strain.empty()) continue;
+    figure.series.push_back({label, curve.strain, deviator ? curve.deviator : curve.volume, {}, true, false});
   }
   return figure;
+}
+
+/// Friction of contacts, the two states and the two engines, at one kappa.
+std::string friction_label(const StudyRun& run) {
+  const double level = run.parameter("kappa");
+  if (run.engine == EngineKind::md && level != reference_level) return "";
+  return fmt::format("{}, {}, mu = {:g}", engine_name(run.engine), static_cast<char>(run.parameter("state")),
+                     run.parameter("mu"));
+}
+
+/// The stiffness levels of a state with mu = 0.3.
+std::string level_label(const StudyRun& run, char state) {
+  const bool one = run.engine == EngineKind::md && run.parameter("state") == state && run.parameter("mu") == 0.3;
+  return one ? fmt::format("kappa = {:g}", run.parameter("kappa")) : "";
+}
+
+void add_figures(StudyReport& report, const std::vector<StudyRow>& rows) {
+  for (const bool deviator : {true, false})
+    report.figures.push_back(
+        {deviator ? "deviator" : "volume",
+         curve_figure("Triaxial compression of spheres, kappa = 8400 or rigid", rows, deviator, friction_label)});
+  for (const char state : {'A', 'C'})
+    report.figures.push_back({fmt::format("kappa_{}", state),
+                              curve_figure(fmt::format("Stiffness levels of state {} (md, mu = 0.3)", state), rows, true,
+                                           [state](const StudyRun& run) { return level_label(run, state); })});
+  report.figures.push_back({"type_I", ramp_figure(rows)});
 }
 
 }  // namespace
@@ -160,9 +183,7 @@ StudyReport report(const std::vector<StudyRow>& rows) {
   report_quasistatic(report, rows);
   report_creep(report, rows);
   report_ramps(report, rows);
-  report.figures.push_back({"deviator", curve_figure(rows, true)});
-  report.figures.push_back({"volume", curve_figure(rows, false)});
-  report.figures.push_back({"type_I", ramp_figure(rows)});
+  add_figures(report, rows);
   report.remarks.emplace_back(
       "figures show seed 1; findings are means over the seeds, with the error of their scatter; "
       "kappa = 0 stands for rigid grains");

@@ -41,6 +41,8 @@ double strain_at(const TriaxialCurve& curve, double deviator) {
   return first_crossing(curve.deviator, curve.strain, deviator);
 }
 
+double type_I_strain(const TriaxialCurve& curve) { return strain_at(curve, 0.4) - strain_at(curve, 0.1); }
+
 double mean_deviator(const TriaxialCurve& curve, double least, double most) {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < curve.strain.size(); ++k)

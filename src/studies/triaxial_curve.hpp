@@ -21,6 +21,11 @@ double deviator_at(const TriaxialCurve& curve, double strain);
 /// Axial strain at which q/P is first reached, by linear interpolation; NaN where it is not.
 double strain_at(const TriaxialCurve& curve, double deviator);
 
+/// Axial strain between q/P = 0.1 and 0.4, where the contacts of a well coordinated packing carry what is added (type
+/// I). The first tenth is left out: packings assembled without friction settle a little more when they are first loaded
+/// with it.
+double type_I_strain(const TriaxialCurve& curve);
+
 /// Mean of q/P over the rows with least <= strain <= most; NaN without any.
 double mean_deviator(const TriaxialCurve& curve, double least, double most);
 
