@@ -142,7 +142,9 @@ pressure = 1.0
 )",
                       scene.stiffness_level, scene.length, height, 0.5 + distance, scene.inertial_number * distance,
                       -scene.length);
-  text += numerics(scene.engine, scene.cd_dt_factor);
+  // The default step of cd follows the fastest grains at the start, which are those of the wall.
+  text += scene.engine == EngineKind::md ? md_section(scene.engine, sparing_steps)
+                                         : fmt::format("\n[cd]\ntolerance = 1e-3\ndt = {}\n", scene.cd_dt);
   return text + fmt::format(
                     "\n[run]\nduration = {}\naverage_from = 0.5\nsamples = 2000\n\n"
                     "[output]\nmeasures = [\"profile\"]\nprofile_layers = {}\n",

@@ -50,7 +50,7 @@ struct WallShearScene {
   double inertial_number = 0.1;  ///< of the wall's speed over the distance of the walls
   double stiffness_level = 1e4;  ///< ignored by rigid grains
   double duration = 2000;        ///< of the run; the second half is averaged
-  double cd_dt_factor = 0.01;    ///< of the inertial time
+  double cd_dt = 0.01;           ///< in inertial times
 };
 std::string wall_shear_scene(const WallShearScene& scene);
 

@@ -6,7 +6,7 @@ set ylabel 'effect / what counts as one'
 set logscale y
 set format y '10^{%L}'
 set mytics 10
-set yrange [0.002154092481684522:54.34537100470577]
+set yrange [0.0010145017326229262:35.688400092785805]
 set autoscale noextend
 set offsets graph 0.03, graph 0.03, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
