@@ -8,7 +8,7 @@
 
 namespace galet::compression {
 
-/// The criterion of rest: rigid contacts that a single step leaves without force are not counted, and at 1e-6 they are 3 % of
+/// The criterion of rest. Rigid contacts that carry nothing in a single step are not counted; at 1e-6 these are 3 % of
 /// those of state A.
 inline double rest_of(EngineKind engine) { return engine == EngineKind::md ? 1e-7 : 1e-8; }
 

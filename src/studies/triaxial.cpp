@@ -139,8 +139,8 @@ void add_figures(StudyReport& report, const std::vector<StudyRow>& rows) {
          curve_figure("Triaxial compression of spheres, kappa = 8400 or rigid", rows, deviator, friction_label)});
   for (const char state : {'A', 'C'})
     report.figures.push_back({fmt::format("kappa_{}", state),
-                              curve_figure(fmt::format("Stiffness levels of state {} (md, mu = 0.3)", state), rows, true,
-                                           [state](const StudyRun& run) { return level_label(run, state); })});
+                              curve_figure(fmt::format("Stiffness levels of state {} (md, mu = 0.3)", state), rows,
+                                           true, [state](const StudyRun& run) { return level_label(run, state); })});
   report.figures.push_back({"type_I", ramp_figure(rows)});
 }
 

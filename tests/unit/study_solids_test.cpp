@@ -138,7 +138,8 @@ TEST(StudySolids, CyclesLeaveAPartOfTheirStrain) {
   const StudyReport report = find_study("compression").evaluate({isotropic, oedometric});
   EXPECT_NEAR(finding(report, "strain of A left after an isotropic cycle")->ours.value, 0.03, 1e-12);
   EXPECT_NEAR(finding(report, "z of A under the axial stress")->ours.value, 0.05, 1e-12);
-  EXPECT_EQ(finding(report, "z of A under the axial stress")->note, "a cycle leaves 0.050 +- 0.000 of its axial strain");
+  EXPECT_EQ(finding(report, "z of A under the axial stress")->note,
+            "a cycle leaves 0.050 +- 0.000 of its axial strain");
   EXPECT_NEAR(finding(report, "z* of A after an isotropic cycle, less before")->ours.value, -0.3, 1e-12);
 }
 
