@@ -26,9 +26,9 @@ double strain_at(double inertial_number, bool quick) {
 }
 
 void add_volume_runs(std::vector<StudyRun>& runs, ShearScene scene, bool quick) {
-  scene.strain = 6;
   scene.volume_strain = strain_at(volume_state, quick);
   scene.inertial_number = volume_state;
+  scene.strain = std::max(6.0, settled_strain(scene));
   scene.title = fmt::format("flow-law: {}, volume held, I about {:g}", engine_name(scene.engine), volume_state);
   runs.push_back({engine_name(scene.engine) + "_volume", scene.engine, {{"volume", 1}}, shear_scene(scene)});
 }

@@ -63,6 +63,11 @@ std::vector<const StudyRow*> shear_rows(const std::vector<StudyRow>& rows, Engin
   return found;
 }
 
+double settled_strain(const ShearScene& scene) {
+  const double edge = std::pow(scene.grains, 1.0 / scene.dimension);
+  return std::max(scene.settling, 1.6 * edge * scene.inertial_number);
+}
+
 std::string shear_scene(const ShearScene& scene) {
   std::string text = head_and_start(scene);
   const bool staged = scene.dense_strain > 0 || scene.volume_strain > 0;
@@ -74,7 +79,8 @@ std::string shear_scene(const ShearScene& scene) {
                         scene.cd_dt_factor > 0 ? fmt::format("dt_factor = {}\n", scene.cd_dt_factor) : "");
   text += fmt::format("\n[run]\nsamples = {}\n", rows_of_a_run);
   const double last = scene.volume_strain > 0 ? scene.volume_strain : scene.strain;
-  text += fmt::format("average_from = {:.6g}\n", scene.settling / last);
+  text +=
+      fmt::format("average_from = {:.6g}\n", (scene.volume_strain > 0 ? scene.settling : settled_strain(scene)) / last);
   if (!staged) return text + fmt::format("strain = {}\n", scene.strain);
   // Frictionless grains under shear pack densely whatever they came from, and the fast shear takes little time.
   if (scene.dense_strain > 0)

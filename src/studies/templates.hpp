@@ -21,7 +21,7 @@ struct ShearScene {
   double stiffness_level = 1e4;  ///< ignored by rigid grains
   double inertial_number = 0.1;
   double strain = 12;        ///< of the whole run
-  double settling = 2;       ///< strain before averages are taken
+  double settling = 2;       ///< strain before averages are taken, at least (settled_strain)
   std::string material;      ///< further lines of [material]
   double dense_strain = 0;   ///< > 0: a dense start; a stage before shears frictionless grains by so much
   double volume_strain = 0;  ///< > 0: a last stage of this strain at held volume, in which averages are taken
@@ -30,6 +30,10 @@ struct ShearScene {
   int contact_steps = 0;     ///< of md; 0: the default
 };
 std::string shear_scene(const ShearScene& scene);
+/// The strain after which the start is forgotten: `settling`, and the time in which the pressure of the gas that is
+/// compressed comes to rest. It swings to and fro across the cell for 1.6 sqrt(m / P) per diameter of the cell's edge
+/// (2000 disks: 70).
+double settled_strain(const ShearScene& scene);
 
 /// A row of homogeneous shear beside what a study called `study` is about: parameter I, title from engine and I.
 StudyRun shear_row(const std::string& study, ShearScene scene);

@@ -134,6 +134,18 @@ TEST(StudyScenes, HoldWhatTheyAreAskedFor) {
   EXPECT_EQ(plain_number(0), "0");
 }
 
+TEST(StudyScenes, AveragesWaitForThePressure) {
+  ShearScene scene;
+  scene.grains = 2500, scene.strain = 40, scene.settling = 2;
+  scene.inertial_number = 0.01;
+  EXPECT_EQ(settled_strain(scene), 2);
+  scene.inertial_number = 0.2;  // 1.6 * 50 inertial times
+  EXPECT_DOUBLE_EQ(settled_strain(scene), 16);
+  EXPECT_DOUBLE_EQ(parse_scene(shear_scene(scene), "scene").run.average_from, 0.4);
+  scene.dimension = 3, scene.grains = 1000;
+  EXPECT_NEAR(settled_strain(scene), 3.2, 1e-12);
+}
+
 TEST(StudyRows, AreReadAsTheyWereWritten) {
   const test::TemporaryFolder folder;
   const StudyOutcome outcome = run_study(tiny, options_in(folder));
