@@ -58,7 +58,7 @@ cat <<'END'
   1 / sqrt(kappa): at kappa = 1e5 (`cohesive-flow`) it costs ten times what it does at 1e3 (`inclined-plane`, `annular-shear`), and that is what decides, with the
   inertial number: rigid grains are the better choice in fast flows and stiff ones, soft ones at kappa of a few thousand near rest, where cd's contacts want many
   sweeps.
-- Walls and rings of glued grains are bodies with many contacts, which sweeps pass on slowly: between walls (\`flow-law\`) a step of cd takes about three
+- Walls and rings of glued grains are bodies with many contacts, which sweeps pass on slowly: between walls (`flow-law`) a step of cd takes about three
   times the seconds per grain that it takes in the cell, a step of md 1.0 to 1.7 times.
 - Not to be had from these rows: local laws of slopes and annuli, whose errors are not kept row by row.
 

@@ -8,23 +8,11 @@
 #include "src/studies/gradient_templates.hpp"
 #include "src/studies/registry.hpp"
 #include "src/studies/row_file.hpp"
+#include "tests/support/study_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace galet::test::study_gradient_test {
 namespace {
-
-const StudyFinding* finding(const StudyReport& report, const std::string& start) {
-  for (const StudyFinding& one : report.findings)
-    if (one.quantity.starts_with(start)) return &one;
-  return nullptr;
-}
-
-StudyRow with_parameters(EngineKind engine, std::vector<std::pair<std::string, double>> parameters) {
-  StudyRow row;
-  row.plan.engine = engine;
-  row.plan.parameters = std::move(parameters);
-  return row;
-}
 
 void set(StudyRow& row, Observable observable, double value, double error) {
   row.run.averages.values[static_cast<int>(observable)] = {value, error};

@@ -8,22 +8,10 @@
 #include "src/studies/registry.hpp"
 #include "src/studies/solid_templates.hpp"
 #include "src/studies/triaxial_curve.hpp"
+#include "tests/support/study_rows.hpp"
 
 namespace galet::test::study_solids_test {
 namespace {
-
-const StudyFinding* finding(const StudyReport& report, const std::string& start) {
-  for (const StudyFinding& one : report.findings)
-    if (one.quantity.starts_with(start)) return &one;
-  return nullptr;
-}
-
-StudyRow with_parameters(EngineKind engine, std::vector<std::pair<std::string, double>> parameters) {
-  StudyRow row;
-  row.plan.engine = engine;
-  row.plan.parameters = std::move(parameters);
-  return row;
-}
 
 void add_stage(StudyRow& row, const std::string& name, double time,
                const std::vector<std::pair<Observable, double>>& values, Ending ending = Ending::equilibrium) {
