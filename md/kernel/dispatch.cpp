@@ -21,8 +21,12 @@ PassFunction pass_function([[maybe_unused]] Instructions set, Kernel kernel) {
 
 template <Layout Y>
 GrainFunctions grain_functions([[maybe_unused]] Instructions set) {
+#ifdef GALET_AVX512
+  // A grain is worked on as groups of four doubles; spheres with friction have two of each kind.
+  if constexpr (Y.dim == 3 && Y.friction)
+    if (set == Instructions::avx512) return grain_functions_of_width<Y, 8>();
+#endif
 #ifdef GALET_AVX2
-  // A grain is worked on as groups of four doubles: eight lanes have no use there.
   if (set != Instructions::scalar) return grain_functions_of_width<Y, 4>();
 #endif
   return grain_functions_of_width<Y, 1>();

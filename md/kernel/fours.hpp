@@ -93,9 +93,8 @@ GALET_INLINE Four<4> everywhere(Four<4> a) {
 
 /// A matrix (columns as groups; bit k of `columns_used`: whether the k-th is not zero) times a vector, and one more
 /// added.
-template <Layout Y, int W>
-GALET_INLINE Four<W> apply(const double (&columns)[3][4], unsigned columns_used, Four<W> x, Four<W> sum) {
-  using F = Four<W>;
+template <Layout Y, class F>
+GALET_INLINE F apply(const double (&columns)[3][4], unsigned columns_used, F x, F sum) {
   // The same for all grains; in simple shear two of three are zero.
   if (Y.dim == 3 && (columns_used & 4)) sum = madd(F::load(columns[2]), everywhere<2>(x), sum);
   if (columns_used & 2) sum = madd(F::load(columns[1]), everywhere<1>(x), sum);
@@ -104,12 +103,22 @@ GALET_INLINE Four<W> apply(const double (&columns)[3][4], unsigned columns_used,
 }
 
 /// The velocity in a record.
-template <Layout Y, int W>
-GALET_INLINE Four<W> seen_velocity(const double* record) {
+template <Layout Y, class F>
+GALET_INLINE F seen_velocity(const double* record) {
   if constexpr (Y.dim == 3)
-    return Four<W>::load(record + 4);
+    return F::load(record + 4);
   else
-    return Four<W>::load_pair(record + 2);
+    return F::load_pair(record + 2);
+}
+
+/// A group that holds all of a motion: what eights.hpp does with two.
+template <int W>
+GALET_INLINE Four<W> linear(Four<W> a) {
+  return a;
+}
+template <int W>
+GALET_INLINE Four<W> minus_linear(Four<W> a, Four<W> b) {
+  return a - b;
 }
 
 }  // namespace galet::md

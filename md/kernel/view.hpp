@@ -118,21 +118,22 @@ inline constexpr double extrapolation = 0.5;
 /// Where each quantity of a grain's state lies; groups of four doubles, whose fourth (c) is a constant of the grain.
 ///   2D   vx vy w c | ax ay dw/dt c | factors | record factors      128 B (frictionless 96 B)
 ///        factors of the rows Fx Fy twist torque: 1/m, 1/m, -R/I, 1/I;  of w in the record: R, 1, 0, 0
-///   3D   v c | a c            with friction also   w c | dw/dt c    64 B or 128 B
+///   3D   v c | a c; with friction   v c | w c | a c | dw/dt c       64 B or 128 B
 /// `expected`: accelerations extrapolated to the next step. They are needed only where a step begins apart from the
 /// last one's end, so they lie in a second array (groups from `size` on): large samples are bound by what is moved.
 template <Layout Y>
 struct StateGroups {
-  static constexpr int velocity = 0, acceleration = 4;
+  static constexpr bool twice = Y.dim == 3 && Y.friction;  ///< groups of the rotation behind those of the centre
+  static constexpr int velocity = 0, acceleration = twice ? 8 : 4;
   static constexpr int factors = 8, record_factors = 12;  ///< 2D
-  static constexpr int spin = 8, turning = 12;            ///< 3D with friction
+  static constexpr int spin = 4, turning = 12;            ///< 3D with friction
   static constexpr int inverse_mass = 3;
-  static constexpr int inverse_inertia = 7, twist_factor = 11, radius = 15;  ///< 3D with friction; twist: -R/I
+  static constexpr int twist_factor = 7, inverse_inertia = 11, radius = 15;  ///< 3D with friction; twist: -R/I
   static constexpr int size = Y.dim == 2 ? (Y.friction ? 16 : 12) : (Y.friction ? 16 : 8);
   // The second array.
   static constexpr int expected = size, expected_turning = size + 4;  ///< the latter: 3D with friction
   static constexpr int mass = size + 3;
-  static constexpr int second_size = Y.dim == 3 && Y.friction ? 8 : 4;
+  static constexpr int second_size = twice ? 8 : 4;
 };
 
 /// Slots of a grain in GrainView::slots.
