@@ -160,7 +160,8 @@ if [ -f "$results/lammps_speed/cases.csv" ]; then
   cat <<'END'
 
 Grain-steps per second of processor time, in millions, of both codes in turn on one core: the same packing, law, step and rate, LAMMPS
-with the best settings found (`benchmarks/peers/lammps_speed.cpp` says which were tried). `*_difference`: between the ends of both runs.
+with the best settings found (`benchmarks/peers/lammps_speed.cpp` says which were tried); `ratio_usual`: with the settings of its own granular
+example. `*_difference`: between the ends of both runs.
 
 END
   csv_table "$results/lammps_speed/cases.csv"

@@ -86,7 +86,7 @@ Figure fraction_figure(const std::vector<StudyRow>& rows) {
 StudyRun cohesive_run(EngineKind engine, bool quick, double friction, double eta, double inertial_number) {
   ShearScene scene;
   scene.engine = engine;
-  scene.grains = quick ? 200 : 2000;
+  scene.grains = quick ? 200 : full_size_disks;
   scene.contact_steps = quick ? 0 : sparing_steps;
   scene.friction = friction;
   scene.stiffness_level = stiffness;

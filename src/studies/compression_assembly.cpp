@@ -50,7 +50,7 @@ void add_assembly_runs(std::vector<StudyRun>& runs, bool quick) {
       const auto add = [&](double rate, double restitution, int count) {
         runs.push_back(assembly_run(engine, rate, restitution, count, seed));
       };
-      if (!quick) add(1e-4, usual_restitution, grains);
+      if (!quick) add(1e-4, usual_restitution, fewer);
       for (const double rate : {usual_rate, 1e-2, 0.1}) add(rate, usual_restitution, grains);
       add(usual_rate, other_restitution, grains);
       add(usual_rate, usual_restitution, fewer);
@@ -74,8 +74,9 @@ void report_assembly(StudyReport& report, const std::vector<StudyRow>& rows) {
     };
     const auto usual = states_at(rows, engine, usual_rate, usual_restitution, grains);
     if (slowest < usual_rate)
-      compare(fmt::format("I = {:g} over {:g}", usual_rate, slowest), usual,
-              states_at(rows, engine, slowest, usual_restitution, grains));
+      compare(fmt::format("I = {:g} over {:g}, N = {:g}", usual_rate, slowest, fewer),
+              states_at(rows, engine, usual_rate, usual_restitution, fewer),
+              states_at(rows, engine, slowest, usual_restitution, fewer));
     else
       compare(fmt::format("I = 0.01 over {:g}", usual_rate), states_at(rows, engine, 0.01, usual_restitution, grains),
               usual);

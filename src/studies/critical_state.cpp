@@ -111,12 +111,12 @@ StudyRun critical_run(EngineKind engine, int dimension, double friction, double 
   ShearScene scene;
   scene.engine = engine;
   scene.dimension = dimension;
-  scene.grains = quick ? (dimension == 2 ? 200 : 300) : (dimension == 2 ? 2000 : 4000);
+  scene.grains = quick ? (dimension == 2 ? 200 : 300) : (dimension == 2 ? full_size_disks : 2000);
   scene.friction = friction;
-  scene.stiffness_level = quick ? 3000 : 1e4;
+  scene.stiffness_level = quick || dimension == 3 ? 3000 : 1e4;
   scene.contact_steps = quick ? 0 : sparing_steps;
   scene.inertial_number = quick ? (dimension == 2 ? 5e-3 : 0.02) : 1e-3;
-  scene.strain = quick ? 5 : 10;
+  scene.strain = quick ? 5 : dimension == 2 ? 10 : 6;
   scene.settling = 2;
   scene.dense_strain = dense ? 2 : 0;
   if (rolling > 0) scene.material = fmt::format("rolling_friction = {}\n", rolling);

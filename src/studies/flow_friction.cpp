@@ -75,7 +75,7 @@ std::vector<StudyRun> plan(StudySize size) {
       for (const double inertial_number : states) {
         ShearScene scene;
         scene.engine = engine;
-        scene.grains = quick ? 200 : 2000;
+        scene.grains = quick ? 200 : full_size_disks;
         scene.contact_steps = quick ? 0 : sparing_steps;
         scene.friction = friction;
         scene.inertial_number = inertial_number;

@@ -109,7 +109,7 @@ std::vector<StudyRun> plan(StudySize size) {
   const auto add = [&](EngineKind engine, double state, double level, bool rigid) {
     ShearScene scene;
     scene.engine = engine;
-    scene.grains = quick ? 200 : 2000;
+    scene.grains = quick ? 200 : full_size_disks;
     scene.contact_steps = quick ? 0 : sparing_steps;
     scene.inertial_number = state;
     scene.strain = std::clamp(400 * state, 16.0, 40.0);

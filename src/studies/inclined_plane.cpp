@@ -177,7 +177,7 @@ std::vector<StudyRun> plan(StudySize size) {
          quick ? std::vector{0.02, 0.05, 0.1, 0.2} : std::vector{0.01, 0.02, 0.05, 0.1, 0.15, 0.2}) {
       ShearScene scene;
       scene.engine = engine;
-      scene.grains = quick ? 400 : 2000;
+      scene.grains = quick ? 400 : full_size_disks;
       scene.contact_steps = quick ? 0 : sparing_steps;
       scene.stiffness_level = quick ? 1e3 : 1e4;
       scene.inertial_number = state;

@@ -28,13 +28,13 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
   ShearScene scene;
   scene.title = title;
   scene.engine = engine;
-  scene.grains = quick ? (regime == Regime::critical ? 150 : 200) : 2000;
+  scene.grains = quick ? (regime == Regime::critical ? 150 : 200) : full_size_disks;
   scene.contact_steps = quick ? 0 : sparing_steps;
   scene.friction = state.friction;
   scene.restitution = state.restitution;
   scene.stiffness_level = state.stiffness_level;
   scene.inertial_number = state.inertial_number;
-  scene.strain = regime == Regime::critical ? (quick ? 6 : 20) : (quick ? 16 : 60);
+  scene.strain = regime == Regime::critical ? (quick ? 6 : 10) : (quick ? 16 : 60);
   if (regime == Regime::collisional) scene.strain *= 2;
   scene.settling = 2;
   scene.material = material_lines(state, elastic);
@@ -46,7 +46,7 @@ std::string flow_scene(Regime regime, EngineKind engine, const State& state, boo
 std::string assembly_of_disks(EngineKind engine, const State& state, bool elastic, int seed, const std::string& title,
                               bool quick) {
   SceneHead head{title, engine, 2, seed};
-  head.grains = quick ? 200 : 2000;
+  head.grains = quick ? 200 : full_size_disks;
   head.friction = state.friction, head.restitution = state.restitution;
   std::string text = scene_head(head) + fmt::format(R"(stiffness_level = {}
 tangential_stiffness_ratio = 0.5

@@ -28,6 +28,8 @@ std::string scene_head(const SceneHead& head);
 /// Steps per contact of md where its runs are long: means of flows and packings at rest don't tell them from the
 /// default, 50 (docs/theory.md).
 inline constexpr int sparing_steps = 30;
+/// Disks of the full size of most studies: the least of the chapter's flows (sec. cishom: 1000 to 5000).
+inline constexpr int full_size_disks = 1000;
 /// The section [md] of a scene of md with so many steps per contact; empty for cd, and for 0: the default.
 std::string md_section(EngineKind engine, int contact_steps);
 
