@@ -73,8 +73,7 @@ class ContactPass {
   PassSums<D> run(const Bodies<Y>& bodies, Seen<Y>& seen, const PassLaw& law, Contacts<Y>& contacts) {
     constexpr std::size_t chunk = chunk_size / block_rows;
     const std::size_t blocks = contacts.block_count(), chunks = (blocks + chunk - 1) / chunk;
-    place_planes(bodies, seen, contacts);
-    const PassView view = view_of(bodies, seen, law, contacts);
+    const PassView view = begin(bodies, seen, law, contacts);
     const bool sums_wanted = law.virial || kernel_.account;
     refill(partial_, sums_wanted ? chunks : 1, LaneSums{});
     parallel_ranges(
@@ -93,6 +92,17 @@ class ContactPass {
         sums.plane_power -= contacts.force(row.row).dot(
             tangent_plane<D>(bodies.planes[row.plane], seen.grains.position(row.grain)).velocity);
     return sums;
+  }
+
+  /// For evaluate: what the kernel works on, with all that rows refer to in its place.
+  PassView begin(const Bodies<Y>& bodies, Seen<Y>& seen, const PassLaw& law, Contacts<Y>& contacts) {
+    place_planes(bodies, seen, contacts);
+    return view_of(bodies, seen, law, contacts);
+  }
+  /// The blocks [first, last), where no sums are wanted.
+  void evaluate(const PassView& view, std::size_t first, std::size_t last) const {
+    LaneSums unused;
+    function_(view, first, last, unused);
   }
 
  private:

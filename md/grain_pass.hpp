@@ -8,7 +8,8 @@
 //   gather  a' from the contact rows, in a fixed order (rows as second member less rows as first);
 //           v' = v_half + dt/2 a'
 // The gather of one step and the drift of the next are one loop where nothing comes between them (a cell driven by
-// stress moves with the sum over all grains). Rotations likewise, without the cell.
+// stress moves with the sum over all grains), right behind the contacts (md/sweep.hpp). Rotations likewise, without the
+// cell.
 //
 // Why the acceleration is extrapolated: springs that never slide integrate the velocities that contacts see. With the
 // plain prediction v_half + dt/2 a an undamped spring of frequency w gains amplitude, (w dt)^4 / 8 a step, and nothing
@@ -56,20 +57,28 @@ class GrainPass {
   double drift(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, double dt) {
     GrainView view = view_of(bodies, states, seen);
     const Mat<D> deform = set_drift(view, bodies.cell.rate, dt);
-    const double fastest = each_chunk(view, functions_.drift);
+    refill(partial_, chunk_count(view.count), Columns{});
+    parallel_chunks(view.count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      functions_.drift(view, begin, end, partial_[chunk].column[0]);
+    });
     move_boundaries(bodies, deform, dt);
-    return fastest;
+    return fastest();
   }
 
-  /// The end of one step and the first half of the next, for a cell whose rate does not change. Returns as drift.
+  /// The end of one step and the first half of the next, for a cell whose rate does not change: `sweep` calls
+  /// grains(part, begin, end), part < parts, once for each grain when all of its rows are there. Returns as drift.
+  template <class Sweep>
   double step(Bodies<Y>& bodies, GrainStates<Y>& states, Seen<Y>& seen, const VerletList<D>& list,
-              const Contacts<Y>& contacts, double dt) {
+              const Contacts<Y>& contacts, double dt, std::size_t parts, const Sweep& sweep) {
     GrainView view = view_of(bodies, states, seen);
     set_gather(view, bodies, seen, list, contacts, 0.5 * dt);
     const Mat<D> deform = set_drift(view, bodies.cell.rate, dt);
-    const double fastest = each_chunk(view, functions_.step);
+    refill(partial_, parts, Columns{});
+    sweep([&](std::size_t part, std::size_t begin, std::size_t end) {
+      functions_.step(view, begin, end, partial_[part].column[0]);
+    });
     move_boundaries(bodies, deform, dt);
-    return fastest;
+    return fastest();
   }
 
   /// Accelerations from the contact rows, and the second half of the kick (`kick` = dt/2; 0 at the very start). Returns
@@ -140,13 +149,8 @@ class GrainPass {
     for (Plane<D>& plane : bodies.planes) plane.point += dt * plane.velocity;
   }
 
-  using Moving = void (*)(const GrainView&, std::size_t, std::size_t, double (&)[4]);
-
-  double each_chunk(const GrainView& view, Moving function) {
-    refill(partial_, chunk_count(view.count), Columns{});
-    parallel_chunks(view.count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-      function(view, begin, end, partial_[chunk].column[0]);
-    });
+  /// Norm of the largest half-step velocities of any part, component by component.
+  double fastest() const {
     double largest[D] = {}, sum = 0;
     for (const Columns& part : partial_)
       for (int a = 0; a < D; ++a) largest[a] = std::max(largest[a], part.column[0][a]);

@@ -23,6 +23,7 @@
 #include "md/shown.hpp"
 #include "md/skin.hpp"
 #include "md/step_guard.hpp"
+#include "md/sweep.hpp"
 
 namespace galet::md {
 
@@ -221,13 +222,25 @@ class SoftEngine final : public Engine<Y.dim> {
     if (!go_on) {
       evaluate(dt_);
     } else {
-      evaluate_contacts(dt_, false);
+      const double fastest = sweep();
       StageTimer timer(profile_, Stage::grains);
-      const double fastest = grain_pass_.step(bodies_, states_, seen_, list_, contacts_, dt_);
       gather_rigid(0.5 * dt_);
       list_bound_.moved(std::max(fastest, drift_rigid()), bodies_.cell.rate, dt_);
     }
     ++steps_;
+  }
+
+  /// Contacts, the end of the step and the beginning of the next one, but for rigid bodies. Returns as the drift does.
+  double sweep() {
+    const PassView rows = pass_.begin(bodies_, seen_, pass_law(dt_, false), contacts_);
+    const std::size_t parts = sweep_.plan(list_, contacts_.block_count());
+    const double fastest =
+        grain_pass_.step(bodies_, states_, seen_, list_, contacts_, dt_, parts, [&](const auto& grains) {
+          const auto evaluate = [&](std::size_t begin, std::size_t end) { pass_.evaluate(rows, begin, end); };
+          sweep_.run(list_.first(), evaluate, grains, profile_);
+        });
+    watch_stiffness();
+    return fastest;
   }
 
   double drift_rigid() { return bodies_.rigid.none() ? 0 : body_pass_.drift(bodies_, states_, seen_, dt_); }
@@ -235,11 +248,14 @@ class SoftEngine final : public Engine<Y.dim> {
     if (!bodies_.rigid.none()) body_pass_.gather(bodies_, states_, seen_, list_, contacts_, kick);
   }
 
+  PassLaw pass_law(double dt, bool virial_wanted) const {
+    return {terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, virial_wanted};
+  }
+
   PassSums<D> evaluate_contacts(double dt, bool virial_wanted) {
     StageTimer timer(profile_, Stage::contacts);
-    const PassLaw law{terms_, kind_, range_, 0.5 * dt, 0.5 * dt_, virial_wanted};
-    const PassSums<D> sums = pass_.run(bodies_, seen_, law, contacts_);
-    if (steps_ % 128 == 0) check_stiffness();
+    const PassSums<D> sums = pass_.run(bodies_, seen_, pass_law(dt, virial_wanted), contacts_);
+    watch_stiffness();
     return sums;
   }
 
@@ -287,8 +303,9 @@ class SoftEngine final : public Engine<Y.dim> {
     for (int i = 0; i < bodies_.grains(); ++i) bodies_.position[i] = seen_.grains.position(i);
   }
 
-  void check_stiffness() {
-    if (!guard_.watches_stiffness()) return;
+  /// Now and then: what is coordinated better than dt was chosen for.
+  void watch_stiffness() {
+    if (steps_ % 128 != 0 || !guard_.watches_stiffness()) return;
     fetch_positions();
     guard_.stiffness(contacts_, list_, order_.number(), time(), [this](std::size_t row) { return frame_of(row); });
   }
@@ -385,8 +402,9 @@ class SoftEngine final : public Engine<Y.dim> {
     order_.moved(step);
   }
 
-  /// What the laws need of each row's two grains.
+  /// What the laws need of each row's two grains; the rows have changed.
   void set_row_constants() {
+    sweep_.forget();
     const PairColumns<D>& pairs = list_.pairs();
     const int grains = bodies_.grains();
     for (std::size_t row = 0; row < list_.size(); ++row) {
@@ -468,6 +486,7 @@ class SoftEngine final : public Engine<Y.dim> {
   Contacts<Y> contacts_, carried_;
   ContactPass<Y> pass_;
   GrainPass<Y> grain_pass_;
+  Sweep sweep_;
   BodyPass<Y> body_pass_;
   GrainOrder<D> order_;
   Shown<Y> shown_;

@@ -40,6 +40,8 @@ class Stages {
       for (int line = 0; line < RowColumns<Y>::count(false); ++line) __builtin_prefetch(columns + line * block_rows);
       const RowBlock* later = view_.blocks + block(group + ahead);
       __builtin_prefetch(later), __builtin_prefetch(reinterpret_cast<const char*>(later) + 64);
+      const double* out = view_.out + block(group) * block_rows * out_size(Y);
+      for (int line = 0; line < out_size(Y); ++line) __builtin_prefetch(out + line * block_rows, 1);
     }
     const std::uint32_t* second = view_.blocks[block(group)].j + lane(group);
     for (int k = 0; k < W; ++k)
