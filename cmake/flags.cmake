@@ -72,9 +72,11 @@ endfunction()
 
 # Kernels are compiled once per instruction set (common/core/instructions.hpp): GALET_SETS has those of this build.
 include(CheckCXXCompilerFlag)
-set(GALET_SET_FLAGS_avx2 -mavx2 -mfma)
+# -mprfchw: a line that is fetched to be written must not come as one that others may keep. (Processors without that
+# instruction do nothing in its place.)
+set(GALET_SET_FLAGS_avx2 -mavx2 -mfma -mprfchw)
 # GCC 12 takes the operands that its own AVX-512 intrinsics leave open for uninitialised (bug 105593).
-set(GALET_SET_FLAGS_avx512 -mavx2 -mfma -mavx512f -mavx512dq -mavx512vl -Wno-maybe-uninitialized)
+set(GALET_SET_FLAGS_avx512 -mavx2 -mfma -mprfchw -mavx512f -mavx512dq -mavx512vl -Wno-maybe-uninitialized)
 set(GALET_SETS)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   foreach(set avx2 avx512)

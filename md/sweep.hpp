@@ -58,6 +58,13 @@ class Sweep {
   /// Fewer blocks are not worth waking a thread.
   static constexpr std::size_t least_blocks = 64;
 
+  /// Samples of fewer grains a thread fit in its own cache, and are better worked on in two goes.
+  static constexpr std::size_t fitting = 8192;
+  /// Those that wait are given to the threads in runs of so many.
+  static constexpr std::size_t shared = 64;
+  /// Grains that share lines of records: no thread reads what another one writes meanwhile.
+  static constexpr std::size_t together = 2;
+
   struct Run {
     std::size_t begin, end;  ///< grains
   };
@@ -102,28 +109,40 @@ class Sweep {
     const std::span<const int> first = list.first(), second = list.second(), of_second = list.rows_of_second();
     const std::size_t grains = first.size() - 1;
     parts_.clear(), runs_.clear(), waiting_.clear();
+    const bool all_wait = parts > 1 && grains < parts * fitting;
     std::size_t grain = 0;
     for (std::size_t k = 0; k < parts; ++k) {
       Part part{blocks * k / parts, blocks * (k + 1) / parts, grain, grains, runs_.size(), 0};
       const auto begin = static_cast<int>(part.block * block_rows), end = static_cast<int>(part.block_end * block_rows);
-      if (k + 1 < parts)
-        part.grain_end = static_cast<std::size_t>(
-            std::lower_bound(first.begin() + static_cast<std::ptrdiff_t>(grain), first.end() - 1, end) - first.begin());
-      for (; grain < part.grain_end; ++grain) {
-        const int lowest = second[grain] < second[grain + 1] ? of_second[second[grain]] : first[grain];
-        append(std::min(lowest, first[grain]) >= begin && first[grain + 1] <= end ? runs_ : waiting_, part.run, grain);
+      const auto waits = [&](std::size_t g) {
+        const int lowest = second[g] < second[g + 1] ? std::min(of_second[second[g]], first[g]) : first[g];
+        return lowest < begin || first[g + 1] > end;
+      };
+      if (k + 1 < parts) {
+        const auto from = first.begin() + static_cast<std::ptrdiff_t>(grain);
+        part.grain_end = static_cast<std::size_t>(std::lower_bound(from, first.end() - 1, end) - first.begin());
+        part.grain_end = std::min(grains, (part.grain_end + together - 1) / together * together);
+      }
+      while (grain < part.grain_end) {
+        const std::size_t next = std::min(part.grain_end, grain + together);
+        bool wait = all_wait;
+        for (std::size_t g = grain; g < next; ++g) wait |= parts > 1 && waits(g);
+        if (wait)
+          append(waiting_, 0, shared, {grain, next});
+        else
+          append(runs_, part.run, grains, {grain, next});
+        grain = next;
       }
       part.run_end = runs_.size();
       parts_.push_back(part);
     }
   }
-  /// Makes the last run longer, if it is one of this part and the grain is next to it.
-  void append(std::vector<Run>& runs, std::size_t first_of_part, std::size_t grain) {
-    const bool begun = !runs.empty() && (&runs == &waiting_ || runs.size() > first_of_part);
-    if (begun && runs.back().end == grain)
-      ++runs.back().end;
+  /// Makes the last run longer where the next is right behind it, if it is not before `from`; up to `most` grains.
+  static void append(std::vector<Run>& runs, std::size_t from, std::size_t most, const Run& next) {
+    if (runs.size() > from && runs.back().end == next.begin && next.end - runs.back().begin <= most)
+      runs.back().end = next.end;
     else
-      runs.push_back({grain, grain + 1});
+      runs.push_back(next);
   }
 
   std::vector<Part> parts_;

@@ -2,24 +2,12 @@
 #pragma once
 
 #include "common/core/archive.hpp"
-#include "common/core/parallel.hpp"
 #include "tests/support/laws.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/thread_count.hpp"
 
 namespace galet::test {
-
-/// Puts the number of threads back, also when an assertion leaves the test early.
-class ThreadCount {
- public:
-  ThreadCount() = default;
-  ~ThreadCount() { set_thread_count(before_); }
-  ThreadCount(const ThreadCount&) = delete;
-  ThreadCount& operator=(const ThreadCount&) = delete;
-
- private:
-  int before_ = thread_count();
-};
 
 template <int D>
 std::uint64_t hash_of(const Engine<D>& engine) {
