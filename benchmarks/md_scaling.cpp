@@ -10,7 +10,7 @@
 // listed and touching pairs per grain; millions of grain-steps per second; ns per grain-step, per listed and touching
 // pair; ns per grain-step by stage; bytes that the engine's arrays hold per grain and per listed pair (with room to
 // grow and second buffers); the process's peak so far in MiB; `moved`: bytes per grain-step between memory and
-// processor if no array stays in a cache from one loop to the next; `stream`: GB/s of a sum of two long arrays into a
+// processor if no array stays in a cache from one step to the next; `stream`: GB/s of a sum of two long arrays into a
 // third (the line fetched before it is written counts); `floor`: ns per grain-step of `moved` at that rate. Below the
 // floor: caches helped. What it can't tell: copies move alike, so that no larger structure forms; times of another
 // machine.
@@ -52,15 +52,15 @@ double stream_rate() {
 }
 
 /// Bytes moved per grain-step, see above: a row's block is read, its columns are read and written, its result is
-/// written (fetched first) and read again by the grains; a record is read by the contacts, read and written by the
-/// grains, a state read and written. Stiffnesses are touched by Hertz contacts only.
+/// fetched and written; a record is read and written, a state likewise. (What the grains of a strip read of rows and
+/// records is still in the cache, md/sweep.hpp.) Stiffnesses are touched by Hertz contacts only.
 template <Layout Y>
 double moved_per_grain(double listed) {
   constexpr double word = sizeof(double);
   constexpr int columns = md::RowColumns<Y>::count(false);
   const double row =
-      sizeof(md::RowBlock) / static_cast<double>(md::block_rows) + 2 * word * columns + 3 * word * md::out_size(Y);
-  return listed * row + 3 * word * md::record_size(Y) + 2 * word * md::StateGroups<Y>::size +
+      sizeof(md::RowBlock) / static_cast<double>(md::block_rows) + 2 * word * columns + 2 * word * md::out_size(Y);
+  return listed * row + 2 * word * md::record_size(Y) + 2 * word * md::StateGroups<Y>::size +
          sizeof(int) * md::slots_per_grain;
 }
 
