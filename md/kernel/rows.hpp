@@ -151,7 +151,7 @@ class Rows {
     double* out = view_.out + (index * block_rows + lane) * out_size(Y);
     // Two copies of what follows: few blocks have a crossing, and the others shouldn't carry what it needs.
     if (__builtin_expect(crossing && view_.stepping, 0)) {
-      const Crossing cross = cross_over(law, crossing, coefficient, critical, at);
+      const Crossing cross = cross_over(law, crossing, coefficient, critical, at, out);
       law.along = select(cross.crosses, law.along + cross.normal, law.along);
       if constexpr (K.account) add_lanes(sums_.normal_viscous, lane, cross.viscous);
       apply(at, law, cross, block, index, lane, out);
@@ -182,16 +182,40 @@ class Rows {
   struct Crossing : Crossings<V> {
     static constexpr bool any = true;
     M crosses, begins, ends;
+    Vector sliding;  ///< end: tangential force (with the present normal, so that angular momentum is conserved)
+    Spin torque;     ///< end: rolling and pivoting torque
   };
 
-  GALET_INLINE Crossing cross_over(const Law& law, unsigned crossing, V coefficient, V critical, const Pair& at) const {
+  GALET_INLINE Crossing cross_over(const Law& law, unsigned crossing, V coefficient, V critical, const Pair& at,
+                                   const double* out) const {
     Crossing result{};
     result.crosses = mask_of<W>(crossing), result.begins = law.touching & result.crosses;
-    result.ends = without(result.crosses, law.touching);
+    const M ends = result.ends = without(result.crosses, law.touching);
     static_cast<Crossings<V>&>(result) =
         crossings<V, M>(view_.kind, law.terms, coefficient, critical, law.deflection, at.opening, law.normal.bound,
-                        half_before_ + half_before_, result.ends);
+                        half_before_ + half_before_, ends);
     result.viscous = only(result.crosses, result.viscous);
+    const V share = only(ends, result.last);
+    const auto last = [&](int component) {
+      alignas(64) double value[W];
+      for (int k = 0; k < W; ++k) value[k] = out[k * out_size(Y) + component];
+      return share * V::load(value);
+    };
+    Vector force;
+    if constexpr (Y.dim == 2)
+      force = {last(0), last(1)};
+    else
+      force = {last(0), last(1), last(2)};
+    const V along = dot(force, at.normal);
+    result.normal = result.normal + along;
+    if constexpr (Y.friction) {
+      // What the turn of the normal has put into the tangential part is no friction: Coulomb's bound takes it out.
+      const Vector tangential = force - along * at.normal;
+      const V most = law.terms.friction * (along + share * result.unbounded), length = sqrt(squared(tangential));
+      result.sliding = min(max(most, -most) / max(length, V(1e-300)), V(1.0)) * tangential;
+    }
+    if constexpr (Y.rolling && Y.dim == 2) result.torque = last(torque_place(Y));
+    if constexpr (Y.rolling && Y.dim == 3) result.torque = {last(6), last(7), last(8)};
     return result;
   }
 
@@ -210,7 +234,10 @@ class Rows {
       double* columns = columns_of(index, lane);
       const V stiffness_before = varying() ? V::load(columns + C::stiffness * block_rows) : V(0.0);
       Spin torque{};
-      if constexpr (Y.rolling) torque = roll(at, law, columns, lane, stiffness_before, cross, block);
+      if constexpr (Y.rolling) {
+        torque = roll(at, law, columns, lane, stiffness_before, cross, block);
+        if constexpr (Cross::any) torque = select(cross.ends, cross.torque, torque);
+      }
       slide(at, law, columns, lane, stiffness_before, force, torque, cross, block, out);
       if (varying()) only(law.touching, law.normal.stiffness).store(columns + C::stiffness * block_rows);
     } else if constexpr (Y.dim == 2) {
@@ -283,11 +310,7 @@ class Rows {
     const Value before = load(column, Value{});
     if (varying())
       adapt_spring<K>(by.ratio * stiffness_before, stiffness, half_before_ + half_after_, elongation, losses);
-    Value ending{};
-    if constexpr (Cross::any) {
-      ending = cross.last * last_force(cross, at.opening, law.normal.stiffness, stiffness, by, elongation, rate);
-      elongation = select(cross.begins, elongation + cross.head * rate, elongation);
-    }
+    if constexpr (Cross::any) elongation = select(cross.begins, elongation + cross.head * rate, elongation);
     const SpringTerms<V> terms{
         stiffness, by.reach * law.normal.bound, by.viscosity, by.total, half_before_, half_after_, by.softness,
         overshoot_};
@@ -298,8 +321,7 @@ class Rows {
     Value force = spring_force<K>(touching, terms, ahead, rate, elongation, guess, slides, sliding);
     if (const unsigned now = bits(slides); __builtin_expect(now != guess, 0))
       slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
-    if constexpr (Cross::any)
-      force = select(cross.ends, ending, begun(cross, slides, force, by.viscosity, rate, sliding));
+    if constexpr (Cross::any) force = begun(cross, slides, force, by.viscosity, rate, sliding);
     if constexpr (K.account) {
       // The springs of rows that part are given up.
       const V last = varying() ? by.ratio * stiffness_before : stiffness;
@@ -309,22 +331,6 @@ class Rows {
     }
     store(elongation, column);
     return force;
-  }
-
-  /// The force of springs a step ago, of contacts that have ended since. The elongation stored is half a step ahead of
-  /// it; where it is at the limit expected there the spring slid, and its force was at the limit then.
-  template <class Value>
-  GALET_INLINE Value last_force(const Crossing& cross, V opening, V normal_stiffness, V stiffness, const Resistance& by,
-                                const Value& elongation, const Value& rate) const {
-    const V limit = by.reach * cross.bound;
-    const V ahead = by.reach * max(nmadd(normal_stiffness, opening * half_before_, cross.bound), V(0.0));
-    const Value stored = stiffness * elongation;
-    const Value sticking = madd(by.viscosity, rate, stiffness * nmadd(half_before_, rate, elongation));
-    // A tenth of room: the opening was a little slower then.
-    const M stuck = (squared(stored) < V(0.81) * ahead * ahead) & (squared(sticking) < limit * limit);
-    // Made long, so that only the limit counts (no norm is divided by: both may be zero).
-    const Value sliding = V(0x1p40) * (stiffness * madd(half_before_, rate, elongation));
-    return shortened(limit, select(stuck, sticking, sliding));
   }
 
   /// The force of springs that have begun to act within the step.
@@ -350,14 +356,16 @@ class Rows {
     double* column = columns + C::spring * block_rows;
     const Resistance by{law.terms.tangential_ratio, softness_, law.terms.friction,
                         law.terms.tangential_viscosity * law.normal.critical, view_.kind.total};
-    const Spin resisting = spring(at, law, column, at.spring, law.touching, stiffness_before, by, at.rate, cross,
-                                  sums_.sliding, lane, block.sliding[0]);
+    Spin resisting = spring(at, law, column, at.spring, law.touching, stiffness_before, by, at.rate, cross,
+                            sums_.sliding, lane, block.sliding[0]);
     if constexpr (Y.dim == 2) {
       const Plane2<V> tangent = tangent_of(at.normal);
-      const V tangential = -resisting;
+      V tangential = -resisting;
+      if constexpr (Cross::any) tangential = select(cross.ends, dot(cross.sliding, tangent), tangential);
       force = madd(tangential, tangent, force);
       write_four(out, out_size(Y), force.x, force.y, at.stretch * tangential, torque);
     } else {
+      if constexpr (Cross::any) resisting = select(cross.ends, V(-1.0) * cross.sliding, resisting);
       force = force - resisting;
       const Space<V> twist = galet::md::cross(resisting, at.stretch * at.normal);
       write_four(out, out_size(Y), force.x, force.y, force.z, twist.x);

@@ -14,9 +14,9 @@
 //   on
 // Smoother ones (elastic and frictional forces of Hertz's law) need nothing. Both crossings are seen after the fact,
 // from the geometry of the step that finds a pair in (out of) contact that was not (was) so before; at the end the
-// force at theta is that of the last step, which follows from the present motion and the springs. Impulses then are
-// right to the order of the scheme; they act up to one step late, which costs dt^2. In the `total` convention the
-// repulsive force ends by itself before contact does: nothing jumps there.
+// force at theta is that of the last step. Impulses then are right to the order of the scheme; they act up to one step
+// late, which costs dt^2. In the `total` convention the repulsive force ends by itself before contact does: nothing
+// jumps there.
 #pragma once
 
 #include "md/laws/normal.hpp"
@@ -37,14 +37,14 @@ GALET_INLINE V root_correction(V theta, bool quarter) {
 /// What crossings change, in the lanes that cross.
 template <class V>
 struct Crossings {
-  V normal{0.0};   ///< added to F_N
-  V springs{1.0};  ///< beginning: factor of the forces of springs that stick
-  V sliders{1.0};  ///< beginning: factor of the forces of those that slide
-  V jump{0.0};     ///< theta - 1/2
-  V head{0.0};     ///< beginning: time that springs have moved for, beyond half a step
-  V last{0.0};     ///< end: share of the last step's forces of springs that is added
-  V bound{0.0};    ///< end: force that Coulomb's bound referred to at the last step
-  V viscous{0.0};  ///< power that normal dashpots take, added to that at the step
+  V normal{0.0};     ///< added to F_N
+  V springs{1.0};    ///< beginning: factor of the forces of springs that stick
+  V sliders{1.0};    ///< beginning: factor of the forces of those that slide
+  V jump{0.0};       ///< theta - 1/2
+  V head{0.0};       ///< beginning: time that springs have moved for, beyond half a step
+  V last{0.0};       ///< end: share of the last step's forces and torques that is added
+  V unbounded{0.0};  ///< end: what F_N lacked at the last step of the force that Coulomb's bound refers to
+  V viscous{0.0};    ///< power that normal dashpots take, added to that at the step
 };
 
 /// `deflection` is negative after the end; `opening`: u_N; `bound`: as in NormalForce; `dt`: the step that led here;
@@ -73,22 +73,20 @@ GALET_INLINE Crossings<V> crossings(const LawKind& kind, const PairTerms<V>& law
     result.normal = corner * max(coefficient * deflection, V(0.0)) -
                     select(ends, only(dashpot, V(0.5) * theta * speed_force), viscous);
     result.springs = result.sliders = V(1.0) + corner;
-    // The last step's normal force, by the deflection that there was.
-    const V elastic = coefficient * (theta * path), whole = elastic - speed_force;
-    const V repulsion = kind.total ? max(whole, V(0.0)) : whole;
     result.last = only(ends, corner);
-    result.normal = madd(result.last, repulsion, result.normal);
-    result.bound = kind.total ? repulsion : elastic;
   }
   result.viscous = viscous * opening;
   if (kind.total) result.sliders = V(1.0) + select(V(0.0) < bound, result.normal / bound, V(0.0));
-  // Attraction has no corner: it is not part of the share of the last force.
+  V regular = law.cohesion;  // attraction that `last` holds and that has no corner
   if (kind.square_root) {
     const V whole = sqrt(V(4.0) * coefficient * law.cohesion * path);
+    regular = whole * sqrt(theta);
     result.normal = result.normal - only(known, whole * root_correction(theta, false));
   } else {
     result.normal = result.normal - select(V(0.0) < law.range, V(0.0), law.cohesion * jump);
   }
+  result.normal = result.normal + result.last * regular;
+  result.unbounded = regular + (kind.total ? V(0.0) : speed_force);
   return result;
 }
 
