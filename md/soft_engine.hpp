@@ -86,7 +86,7 @@ class SoftEngine final : public Engine<Y.dim> {
     use += contacts_.memory();
     use += carried_.memory();
     use.grains += bodies_.bytes() + seen_.grains.bytes() + states_.bytes() + body_pass_.bytes();
-    use.grains += order_.bytes() + shown_.bytes();
+    use.grains += order_.bytes() + shown_.bytes() + sweep_.bytes();
     return use;
   }
 

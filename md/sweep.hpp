@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "common/core/memory_use.hpp"
 #include "common/core/parallel.hpp"
 #include "common/core/profile.hpp"
 #include "common/neighbour/verlet_list.hpp"
@@ -23,6 +24,8 @@ class Sweep {
  public:
   /// The list has changed.
   void forget() { parts_.clear(); }
+
+  std::size_t bytes() const { return bytes_of(parts_, runs_, waiting_); }
 
   /// Shares the work among the threads in use. Returns how many parts there are.
   template <int D>
@@ -109,6 +112,8 @@ class Sweep {
     const std::span<const int> first = list.first(), second = list.second(), of_second = list.rows_of_second();
     const std::size_t grains = first.size() - 1;
     parts_.clear(), runs_.clear(), waiting_.clear();
+    if (parts > 1)  // no list of this sample needs more
+      for (std::vector<Run>* runs : {&runs_, &waiting_}) runs->reserve(grains / together + parts);
     const bool all_wait = parts > 1 && grains < parts * fitting;
     std::size_t grain = 0;
     for (std::size_t k = 0; k < parts; ++k) {
