@@ -64,6 +64,12 @@ void add_wall_runs(std::vector<StudyRun>& runs, EngineKind engine, bool quick) {
   }
 }
 
+Estimate cell_at(const std::vector<const StudyRow*>& cell, const Estimate& number, Observable observable,
+                 double slope) {
+  const Estimate value = homogeneous_at(cell, number.value, observable);
+  return {value.value, std::hypot(value.error, slope * number.error)};
+}
+
 void report_walls(StudyReport& report, const std::vector<StudyRow>& rows, EngineKind engine) {
   const std::vector<const StudyRow*> cell = shear_rows(rows, engine);
   const FlowFit law = fit_flow(cell);
@@ -73,20 +79,16 @@ void report_walls(StudyReport& report, const std::vector<StudyRow>& rows, Engine
     const Bulk bulk = mean_of_bulk(*row);
     const Estimate number = bulk.inertial_number;
     const std::string of = fmt::format(", I = {:.3f} ({})", number.value, engine_name(engine));
-    // What the error of I does to a law of that slope.
-    const auto at = [&](const Estimate& value, double slope) {
-      return Estimate{value.value, std::hypot(value.error, slope * number.error)};
-    };
     report.add("mu* between walls minus the cell's" + of,
-               bulk.mu_star - at(homogeneous_at(cell, number.value, Observable::mu_star), law.b.value),
-               "flow.walls_mu");
+               bulk.mu_star - cell_at(cell, number, Observable::mu_star, law.b.value), "flow.walls_mu");
     report.add("Phi between walls minus the cell's" + of,
-               bulk.solid_fraction - at(homogeneous_at(cell, number.value, Observable::solid_fraction), law.a.value),
-               "flow.walls_Phi");
+               bulk.solid_fraction - cell_at(cell, number, Observable::solid_fraction, law.a.value), "flow.walls_Phi");
     report.add("mu* between walls minus the published law" + of,
-               bulk.mu_star - at({least.value + b.value * number.value, 0}, b.value), "flow.walls_law_mu");
+               bulk.mu_star - Estimate{least.value + b.value * number.value, b.value * number.error},
+               "flow.walls_law_mu");
     report.add("Phi between walls minus the published law" + of,
-               bulk.solid_fraction - at({most.value - a.value * number.value, 0}, a.value), "flow.walls_law_Phi");
+               bulk.solid_fraction - Estimate{most.value - a.value * number.value, a.value * number.error},
+               "flow.walls_law_Phi");
   }
 }
 

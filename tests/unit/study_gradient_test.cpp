@@ -162,6 +162,28 @@ TEST(StudyGradient, WallsFindTheDeviationThatIsThere) {
   EXPECT_EQ(finding(report, "mu* between walls minus the cell's, I = 0.060 (cd)"), nullptr);
 }
 
+TEST(StudyGradient, HeldVolumeIsComparedWithTheCellsOwnPoints) {
+  // mu* bends: 0.3, 0.4, 0.44 at I = 0.05, 0.1, 0.15; half way between the last two no straight line has 0.42.
+  std::vector<StudyRow> rows;
+  for (const auto& [number, mu_star] : {std::pair{0.05, 0.3}, {0.1, 0.4}, {0.15, 0.44}}) {
+    StudyRow row = homogeneous_row(EngineKind::cd, number);
+    set(row, Observable::mu_star, mu_star, 0);
+    rows.push_back(row);
+  }
+  StudyRow held = with_parameters(EngineKind::cd, {{"volume", 1}});
+  set(held, Observable::inertial_number, 0.125, 0);
+  set(held, Observable::mu_star, 1.01 * 0.42, 0.001);
+  set(held, Observable::solid_fraction, rows[1][Observable::solid_fraction].value - 0.37 * 0.025, 0);
+  rows.push_back(held);
+  const StudyReport report = find_study("flow-law").evaluate(rows);
+  const StudyFinding *friction = finding(report, "mu* at held volume over held pressure, - 1 (cd)"),
+                     *fraction = finding(report, "Phi at held volume over held pressure, - 1 (cd)");
+  ASSERT_TRUE(friction && fraction);
+  EXPECT_NEAR(friction->ours.value, 0.01, 1e-12);
+  EXPECT_NEAR(friction->ours.error, 0.001 / 0.42, 1e-4);
+  EXPECT_NEAR(fraction->ours.value, 0, 1e-12);
+}
+
 /// A layer of depth 15 that obeys the law, with I = (tan - 0.26) / 1.1 in each layer.
 StudyRow slope_row(EngineKind engine, double angle, double dt, double kinetic) {
   StudyRow row = with_parameters(engine, {{"theta", angle}, {"dt", dt}});
