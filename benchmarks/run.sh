@@ -25,6 +25,7 @@
 #   work_precision   error against processor time of both engines in eight classes of scenes, where one overtakes the other, cost laws, and
 #                    orders of convergence to the rigid limit (about ten minutes of one core; goes on where it was stopped)
 #   rigid_limit      contact forces of a hyperstatic packing in md and elastic cd at kappa = 1e2 to 1e7, contact by contact
+#   same_packing     where the interval of strains of type I ends, on the same packings in md, elastic and rigid cd (about fifteen minutes)
 #   verify           galet verify --all: every case whose answer is known, both engines (docs/verification.md)
 #   siconos_hard_cases  contact problems of hard cases given to Siconos; skipped where it is not installed
 #   studies          every study of `galet study --list` in its quick size (GALET_STUDY_SIZE=full: the published sizes, days, under
@@ -47,7 +48,7 @@ cmake --preset release -DGALET_BUILD_BENCHMARKS=ON -DGALET_OPTIMISE_BENCHMARKS=O
 cmake --build --preset release
 bin=build/release
 names=("$@")
-[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles solver_bodies cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit verify siconos_hard_cases plane_shear_2d)
+[ ${#names[@]} -gt 0 ] || names=(solver_sweeps cd_compliance cd_cell_inertia rough_wall cd_piles solver_bodies cd_runs layouts stages isotropic_3d frictionless_2d hertz_compression lammps_peer lammps_speed md_accuracy md_drift solver_profile work_precision rigid_limit same_packing verify siconos_hard_cases plane_shear_2d)
 for name in "${names[@]}"; do
   if [ "$name" = studies ]; then
     size=--quick kind=studies
@@ -116,6 +117,7 @@ for name in "${names[@]}"; do
       if [ -n "$pile" ] && [ -f "$pile" ]; then "$bin/benchmarks/solver_bodies" "$pile"; else "$bin/benchmarks/solver_bodies"; fi | tee "$out/solver_bodies.csv" ;;
     hertz_compression)
       for seed in 1 2 3; do "$bin/benchmarks/hertz_compression" 4000 $seed | tee "$out/seed_$seed.csv"; done ;;
+    same_packing) "$bin/benchmarks/same_packing" | tee "$out/same_packing.csv" ;;
     lammps_peer) benchmarks/peers/lammps.sh "$out/table.csv" ;;
     lammps_speed) benchmarks/peers/lammps_speed.sh "$out" ;;
     md_accuracy)

@@ -114,6 +114,18 @@ END
   printf '![differences of forces against the stiffness level](../benchmarks/results/rigid_limit/forces.svg)\n\n'
   measured_on rigid_limit
 fi
+if [ -f "$results/same_packing/same_packing.csv" ]; then
+  cat <<'END'
+## The same packings in both engines
+
+Spheres of state A (frictionless assembly, then μ = 0.3; κ = 39000) assembled by md and by rigid cd, each loaded by md, elastic cd and rigid cd: the axial
+stress rises slowly from P. Strains are of type I (carried by the contacts there are) until the structure breaks. `benchmarks/run.sh same_packing`; columns
+at the head of `benchmarks/same_packing.cpp`.
+
+END
+  csv_table "$results/same_packing/same_packing.csv"
+  measured_on same_packing
+fi
 for name in isotropic_3d frictionless_2d; do
   case $name in
     isotropic_3d) echo "## Isotropic compression of frictional spheres (3D)"

@@ -17,6 +17,14 @@ namespace galet::flow_kappa {
 namespace {
 
 constexpr double softest = 40, enough = 1e3;
+/// Where md is run with tangential damping also: stiff enough for the rigid limit within its errors.
+constexpr double damped_level = 1e5;
+/// What a contact is beside its stiffness level: md without tangential damping, as the chapter has it, or with the
+/// critical one; compliant or rigid cd.
+enum class Contact { plain, damped, compliant, rigid };
+/// Time in which the pressure rises on the softest grains: the pressure that a gas of so many grains is compressed by
+/// at once overshoots fivefold, and such grains would be pressed through one another.
+constexpr double soft_start = 100;
 
 const StudyRow* rigid_row(const std::vector<StudyRow>& rows, double state) {
   return row_with(rows, EngineKind::cd, {{"I", state}, {"rigid", 1}});
@@ -47,6 +55,11 @@ void report_state(StudyReport& report, const std::vector<StudyRow>& rows, double
     if (extrapolated)
       report.add(fmt::format("{} of md for kappa to infinity over rigid cd, - 1{}", name, where),
                  ratio(extrapolated->value, value_of(rigid_row(rows, state), observable)) - one, "flow.engines");
+    report.add(fmt::format("{} of md with zeta_T = 1, kappa = {:g}, over rigid cd, - 1{}", name, damped_level, where),
+               ratio(value_of(row_with(rows, EngineKind::md, {{"I", state}, {"zeta_T", 1}}), observable),
+                     value_of(rigid_row(rows, state), observable)) -
+                   one,
+               "flow.engines");
     for (const StudyRow* row : rows_with(rows, EngineKind::cd, {{"I", state}})) {
       const double level = row->plan.parameter("kappa");
       if (!std::isfinite(level)) continue;
@@ -90,12 +103,38 @@ Figure regime_figure(const std::vector<StudyRow>& rows) {
     Series series;
     series.label = fmt::format("I = {:g}", state);
     for (const StudyRow* row : rows_with(rows, EngineKind::md, {{"I", state}})) {
+      if (!std::isfinite(row->plan.parameter("kappa"))) continue;
       series.x.push_back((*row)[Observable::solid_fraction].value);
       series.y.push_back(state / std::sqrt(row->plan.parameter("kappa")));
     }
     figure.series.push_back(series);
   }
   return figure;
+}
+
+StudyRun flow(bool quick, double state, Contact contact, double level) {
+  const bool rigid = contact == Contact::rigid, damped = contact == Contact::damped;
+  ShearScene scene;
+  scene.engine = rigid || contact == Contact::compliant ? EngineKind::cd : EngineKind::md;
+  scene.grains = quick ? 200 : full_size_disks;
+  scene.contact_steps = quick ? 0 : sparing_steps;
+  scene.inertial_number = state;
+  scene.strain = std::clamp(400 * state, 16.0, 40.0);
+  scene.stiffness_level = level;
+  if (!quick && level == softest) scene.slow_start = soft_start;
+  scene.material = "viscous_convention = \"total\"\n";
+  if (damped) scene.material += "tangential_damping_ratio = 1.0\n";
+  scene.compliance = contact == Contact::compliant;
+  const std::string what = rigid ? "rigid" : (damped ? "damped_kappa_" : "kappa_") + plain_number(level);
+  scene.title = fmt::format("flow-kappa: {}, {}, I = {:g}", engine_name(scene.engine), what, state);
+  // Rows of rigid grains and with tangential damping are not among those of a level.
+  const std::pair<std::string, double> own = rigid    ? std::pair{"rigid", 1.0}
+                                             : damped ? std::pair{"zeta_T", 1.0}
+                                                      : std::pair{"kappa", level};
+  return {fmt::format("{}_{}_I_{:g}", engine_name(scene.engine), what, state),
+          scene.engine,
+          {{"I", state}, own},
+          shear_scene(scene)};
 }
 
 }  // namespace
@@ -106,28 +145,12 @@ std::vector<StudyRun> plan(StudySize size) {
   std::vector<double> levels = {softest, 200, 1e3, 1e4, 1e5};
   if (!quick) levels.push_back(2.5e5);
   std::vector<StudyRun> runs;
-  const auto add = [&](EngineKind engine, double state, double level, bool rigid) {
-    ShearScene scene;
-    scene.engine = engine;
-    scene.grains = quick ? 200 : full_size_disks;
-    scene.contact_steps = quick ? 0 : sparing_steps;
-    scene.inertial_number = state;
-    scene.strain = std::clamp(400 * state, 16.0, 40.0);
-    scene.stiffness_level = level;
-    scene.material = "viscous_convention = \"total\"\n";
-    scene.compliance = engine == EngineKind::cd && !rigid;
-    const std::string what = rigid ? "rigid" : "kappa_" + plain_number(level);
-    scene.title = fmt::format("flow-kappa: {}, {}, I = {:g}", engine_name(engine), what, state);
-    std::vector<std::pair<std::string, double>> parameters{{"I", state}};
-    parameters.emplace_back(rigid ? "rigid" : "kappa", rigid ? 1 : level);
-    runs.push_back(
-        {fmt::format("{}_{}_I_{:g}", engine_name(engine), what, state), engine, parameters, shear_scene(scene)});
-  };
   for (const double state : states) {
-    for (const double level : levels) add(EngineKind::md, state, level, false);
-    for (const double level : {softest, 1e3, 1e4})
-      if (!quick || state >= 0.1) add(EngineKind::cd, state, level, false);
-    add(EngineKind::cd, state, 1e4, true);
+    const auto add = [&](Contact contact, double level) { runs.push_back(flow(quick, state, contact, level)); };
+    for (const double level : levels) add(Contact::plain, level);
+    add(Contact::damped, damped_level);
+    for (const double level : {softest, 1e3, 1e4}) add(Contact::compliant, level);
+    add(Contact::rigid, 1e4);
   }
   return runs;
 }

@@ -82,15 +82,17 @@ inline constexpr Study flow_restitution_study{
     flow_restitution::plan,
     flow_restitution::report};
 
-inline constexpr Study flow_kappa_study{"flow-kappa",
-                                        "Effect of the stiffness of contacts, and the rigid limit",
-                                        "Roux and Chevoir 2010, sec. 3.2 (da Cruz 2004; Campbell 2002)",
-                                        "as flow-law, with kappa = 40 to 1e5 (2.5e5 in full size) in md, the same "
-                                        "compliance in cd, and rigid grains; contacts "
-                                        "are without attraction (viscous_convention = \"total\") in all of them",
-                                        Observable::mu_star,
-                                        flow_kappa::plan,
-                                        flow_kappa::report};
+inline constexpr Study flow_kappa_study{
+    "flow-kappa",
+    "Effect of the stiffness of contacts, and the rigid limit",
+    "Roux and Chevoir 2010, sec. 3.2 (da Cruz 2004; Campbell 2002)",
+    "as flow-law, with kappa = 40 to 1e5 (2.5e5 in full size) in md, the same "
+    "compliance in cd, and rigid grains; contacts "
+    "are without attraction (viscous_convention = \"total\") in all of them; sliding is "
+    "undamped in md, and critically damped in one more run at each I",
+    Observable::mu_star,
+    flow_kappa::plan,
+    flow_kappa::report};
 
 inline constexpr Study compression_study{
     "compression",

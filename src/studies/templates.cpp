@@ -70,7 +70,7 @@ double settled_strain(const ShearScene& scene) {
 
 std::string shear_scene(const ShearScene& scene) {
   std::string text = head_and_start(scene);
-  const bool staged = scene.dense_strain > 0 || scene.volume_strain > 0;
+  const bool staged = scene.slow_start > 0 || scene.dense_strain > 0 || scene.volume_strain > 0;
   text += "\n[loading]\npressure = 1.0\n";
   if (!staged) text += fmt::format("kind = \"plane_shear\"\ninertial_number = {}\n", scene.inertial_number);
   text += md_section(scene.engine, scene.contact_steps);
@@ -82,6 +82,9 @@ std::string shear_scene(const ShearScene& scene) {
   text +=
       fmt::format("average_from = {:.6g}\n", (scene.volume_strain > 0 ? scene.settling : settled_strain(scene)) / last);
   if (!staged) return text + fmt::format("strain = {}\n", scene.strain);
+  if (scene.slow_start > 0)
+    text += stage("pressure raised", scene.slow_start * scene.inertial_number, scene.inertial_number, "",
+                  ", pressure = 0.05, pressure_to = 1.0");
   // Frictionless grains under shear pack densely whatever they came from, and the fast shear takes little time.
   if (scene.dense_strain > 0)
     text += stage("dense", scene.dense_strain, std::max(scene.inertial_number, 0.01), "friction = 0.0\n", "");

@@ -23,6 +23,7 @@ struct ShearScene {
   double strain = 12;        ///< of the whole run
   double settling = 2;       ///< strain before averages are taken, at least (settled_strain)
   std::string material;      ///< further lines of [material]
+  double slow_start = 0;     ///< > 0: a stage before of so much time, in which the pressure rises from a twentieth
   double dense_strain = 0;   ///< > 0: a dense start; a stage before shears frictionless grains by so much
   double volume_strain = 0;  ///< > 0: a last stage of this strain at held volume, in which averages are taken
   bool compliance = false;   ///< cd: contacts have the material's stiffness

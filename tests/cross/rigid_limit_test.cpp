@@ -5,6 +5,7 @@
 // amount of order kappa^(-1/2), i.e. by 10 from kappa = 1e3 to 1e5. cd takes steps of 1e-5, far below that.
 #include <gtest/gtest.h>
 
+#include "tests/support/planar_impact.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace galet::test::rigid_limit_test {
@@ -75,6 +76,47 @@ TEST(RigidLimit, ObliqueImpactSlidingThroughout) {
   sample.spin[0] = -1;
   const Scene scene = free_scene(2, 0.1, 0.6, 1);
   expect_convergence(distances(scene, sample, 0.4), 0.05);
+}
+
+/// Tangential over normal impulse of an impact with twice as much slip as approach, between equal disks. The tangential
+/// one is what turns them, wherever the normal is while they touch.
+double impulse_ratio(EngineKind kind, const Scene& scene, double kappa) {
+  const Vec<2> n = generic_direction<2>();
+  Sample<2> sample = pair_sample<2>(n, 1e-5, {0.5, 0.5}, {1, 1});
+  set_relative_velocity<2>(sample, Vec<2>(-n + 2 * generic_tangent<2>(n)));
+  const std::vector<double> end = final_state(kind, scene, sample, 0.4, kappa);
+  const double impulse = (Vec<2>(end[2], end[3]) - sample.velocity[0]).norm();
+  const double tangential = inertia_ratio<2> * std::abs(end[4]);
+  return tangential / std::sqrt(impulse * impulse - tangential * tangential);
+}
+
+TEST(RigidLimit, StronglyDampedImpactsTakeLessThanMuUnlessSlidingIsDampedToo) {
+  // The normal force is viscous from the first instant on, the tangential spring has yet to stretch: at any stiffness
+  // the impact takes a tangential impulse below mu times the normal one (docs/theory.md, "Rigid limit").
+  constexpr double zeta = 1.24319;  // e = 0.1
+  Scene scene = free_scene(2, 0.4, 0.1, 1);
+  scene.material.convention = DampingConvention::total;
+  scene.material.restitution.reset();
+  scene.material.damping_ratio = zeta;
+  const PlanarBodies disks{{0.5, 0.5}, {1, 1}, inertia_ratio<2>, false, Vec<2>(1, 0)};
+  const auto oracle = [&](double zeta_t) {
+    const PlanarLaw law{NormalLaw::linear, DampingConvention::total, 1e8, 0.5, zeta, zeta_t, 0.4, true};
+    PlanarState touching;
+    touching.x = Vec<2>(1, 0), touching.u = Vec<2>(-1, 2);
+    const PlanarState end = PlanarImpact(law, disks).run(touching, 1e-8);
+    return std::abs((end.u.y() - 2) / (end.u.x() + 1));
+  };
+  EXPECT_NEAR(impulse_ratio(EngineKind::cd, scene, 1), 0.4, 1e-9);
+  for (const double zeta_t : {0.0, 1.0}) {
+    scene.material.tangential_damping_ratio = zeta_t;
+    const double limit = oracle(zeta_t);
+    EXPECT_NEAR(limit, zeta_t > 0 ? 0.4 : 0.226, 0.002);
+    for (const double kappa : kappas) {
+      SCOPED_TRACE("kappa " + std::to_string(kappa) + ", zeta_T " + std::to_string(zeta_t));
+      // The normal turns by v_T t_c / d while the disks touch, with t_c = 2.4 / sqrt(kappa).
+      EXPECT_NEAR(impulse_ratio(EngineKind::md, scene, kappa), limit, 1 / std::sqrt(kappa));
+    }
+  }
 }
 
 TEST(RigidLimit, BallSlidesThenRolls) {

@@ -134,6 +134,20 @@ TEST(StudyScenes, HoldWhatTheyAreAskedFor) {
   EXPECT_EQ(plain_number(0), "0");
 }
 
+TEST(StudyScenes, ASlowStartRaisesThePressureFirst) {
+  ShearScene wanted = tiny_scene(EngineKind::md, 0.2);
+  wanted.slow_start = 50;
+  const Scene scene = parse_scene(shear_scene(wanted), "scene");
+  ASSERT_EQ(scene.stages.size(), 2u);
+  const LoadingSpec& raised = scene.stages[0].loading;
+  EXPECT_EQ(scene.stages[0].strain, 10.0);  // 50 inertial times at this rate
+  EXPECT_EQ(raised.pressure, 0.05);
+  EXPECT_EQ(raised.pressure_to, 1.0);
+  EXPECT_EQ(raised.inertial_number, 0.2);  // of the pressure that the flow has
+  EXPECT_EQ(scene.stages[1].strain, wanted.strain);
+  EXPECT_FALSE(scene.stages[1].loading.pressure_to);
+}
+
 TEST(StudyScenes, AveragesWaitForThePressure) {
   ShearScene scene;
   scene.grains = 2500, scene.strain = 40, scene.settling = 2;
