@@ -321,7 +321,10 @@ class Rows {
     Value force = spring_force<K>(touching, terms, ahead, rate, elongation, guess, slides, sliding);
     if (const unsigned now = bits(slides); __builtin_expect(now != guess, 0))
       slid = static_cast<std::uint8_t>(slid ^ ((guess ^ now) << lane));
-    if constexpr (Cross::any) force = begun(cross, slides, force, by.viscosity, rate, sliding);
+    if constexpr (Cross::any) {
+      force = begun(cross, slides, force, by.viscosity, rate, sliding);
+      elongation = select(without(cross.begins, slides), elongation + cross.ahead * rate, elongation);
+    }
     if constexpr (K.account) {
       // The springs of rows that part are given up.
       const V last = varying() ? by.ratio * stiffness_before : stiffness;

@@ -12,11 +12,13 @@
 //                                         of the linear law (the rule's usual error, C / 12, is left as it is)
 //   a = 1/2  square-root cohesion;  a = 1/4  viscous force of Hertz's law: Euler and Maclaurin's formula from theta + 1
 //   on
-// Smoother ones (elastic and frictional forces of Hertz's law) need nothing. Both crossings are seen after the fact,
-// from the geometry of the step that finds a pair in (out of) contact that was not (was) so before; at the end the
-// force at theta is that of the last step. Impulses then are right to the order of the scheme; they act up to one step
-// late, which costs dt^2. In the `total` convention the repulsive force ends by itself before contact does: nothing
-// jumps there.
+//   a = 1/2  stiffness of Hertz's springs that stick: midpoint sums of K u, half a step ahead of the forces, lack
+//            -zeta(-1/2, theta) of the root; the force at theta itself is K u dt 2 theta / 3
+// Smoother ones (elastic and sliding forces of Hertz's law) need nothing; at the end springs slide. Both crossings are
+// seen after the fact, from the geometry of the step that finds a pair in (out of) contact that was not (was) so
+// before; at the end the force at theta is that of the last step. Impulses then are right to the order of the scheme;
+// they act up to one step late, which costs dt^2. In the `total` convention the repulsive force ends by itself before
+// contact does: nothing jumps there.
 #pragma once
 
 #include "md/laws/normal.hpp"
@@ -40,8 +42,9 @@ struct Crossings {
   V normal{0.0};     ///< added to F_N
   V springs{1.0};    ///< beginning: factor of the forces of springs that stick
   V sliders{1.0};    ///< beginning: factor of the forces of those that slide
-  V jump{0.0};       ///< theta - 1/2
-  V head{0.0};       ///< beginning: time that springs have moved for, beyond half a step
+  V jump{0.0};       ///< beginning: what a dashpot beside a spring lacks, over its force
+  V head{0.0};       ///< beginning: time that springs have moved for, beyond half a step, as the force counts it
+  V ahead{0.0};      ///< beginning: time that is added to what springs have moved for half a step ahead
   V last{0.0};       ///< end: share of the last step's forces and torques that is added
   V unbounded{0.0};  ///< end: what F_N lacked at the last step of the force that Coulomb's bound refers to
   V viscous{0.0};    ///< power that normal dashpots take, added to that at the step
@@ -67,6 +70,10 @@ GALET_INLINE Crossings<V> crossings(const LawKind& kind, const PairTerms<V>& law
   if (kind.hertz) {
     viscous = only(dashpot, speed_force * sqrt(sqrt(path)) * root_correction(theta, true));
     result.normal = V(0.0) - viscous;
+    const V root = sqrt(max(theta, V(1e-12))), moved = V(2.0 / 3) * theta;
+    result.head = only(known, (moved - V(0.5)) * dt);
+    result.ahead = only(known, (V(0.5) + root_correction(theta, false) / root - moved) * dt);
+    result.jump = only(known, root_correction(theta, true) / sqrt(root));
   } else {
     viscous = only(dashpot, jump * speed_force);
     // At an end the share of the last force has part of it already.

@@ -38,6 +38,7 @@ struct Impact {
   PlanarBodies bodies;
   double slip;                                  ///< tangential velocity / speed
   std::array<double, 2> rim_speed = {0.5, -1};  ///< R w / speed
+  double mu = friction;
 
   double reduced_radius() const {
     return bodies.plane ? bodies.radius[0] : reduced(bodies.radius[0], bodies.radius[1]);
@@ -52,7 +53,7 @@ struct Impact {
     return hertz_impact(coefficient(), mass, speed).duration;
   }
   PlanarLaw planar() const {
-    PlanarLaw result{law.normal_law, law.convention, coefficient(), 0.5, law.zeta, law.zeta_t, friction, true};
+    PlanarLaw result{law.normal_law, law.convention, coefficient(), 0.5, law.zeta, law.zeta_t, mu, true};
     if (law.normal_law == NormalLaw::hertz)
       result.ratio = 4 * contact_shear_modulus(matter, matter) / contact_modulus(matter, matter);
     return result;
@@ -103,8 +104,8 @@ Sample<D> start_sample(const Impact& setup, double flight) {
 }
 
 Scene law_scene(const Impact& setup, int dim) {
-  Scene scene = setup.law.normal_law == NormalLaw::linear ? linear_scene(dim, friction, stiffness)
-                                                          : hertz_scene(dim, friction, matter.young, matter.poisson);
+  Scene scene = setup.law.normal_law == NormalLaw::linear ? linear_scene(dim, setup.mu, stiffness)
+                                                          : hertz_scene(dim, setup.mu, matter.young, matter.poisson);
   scene.material.convention = setup.law.convention;
   scene.material.restitution.reset();
   scene.material.damping_ratio = setup.law.zeta;
@@ -139,6 +140,14 @@ constexpr std::array<double, 4> levels{250.3, 1000.7, 4000.3, 8000.7};  // steps
 /// impulse of zeta w0 dt m* u; u is of the order of the speeds (3) and zeta = 0.2 to 0.25; spins weigh 1/k = 2.5 more.
 double first_order(double steps) { return 0.25 * pi / steps * 3 * 2.5; }
 
+/// Root mean square over phases of the steps.
+template <int D>
+double error_at(const Impact& setup, const PlanarState& expected, double dt, int phases) {
+  double sum = 0;
+  for (int k = 0; k < phases; ++k) sum += std::pow(outcome_error<D>(setup, expected, dt, (k + 0.37) / phases), 2);
+  return std::sqrt(sum / phases);
+}
+
 template <int D>
 void check(const Impact& setup) {
   SCOPED_TRACE(setup.law.name + (setup.bodies.plane ? ", plane" : ", pair") + ", D = " + std::to_string(D) +
@@ -147,11 +156,7 @@ void check(const Impact& setup) {
   std::array<double, 4> dt, error;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     dt[level] = setup.duration() / levels[level];
-    const int phases = 4;
-    double sum = 0;
-    for (int k = 0; k < phases; ++k)
-      sum += std::pow(outcome_error<D>(setup, expected, dt[level], (k + 0.37) / phases), 2);
-    error[level] = std::sqrt(sum / phases);
+    error[level] = error_at<D>(setup, expected, dt[level], 4);
   }
   EXPECT_LT(error.back(), first_order(levels.back()));
   // Order 1, or 2 where no force jumps; 0.1 for the phases of the events, which differ from level to level. Below
@@ -183,6 +188,30 @@ TEST(ObliqueLaw, MindlinSpheres) { check_all<3>(mindlin_cases); }
 double distance(const PlanarState& a, const PlanarState& b, const PlanarBodies& bodies) {
   return ((a.u - b.u).norm() + bodies.radius[0] * std::abs(a.w0 - b.w0) + bodies.radius[1] * std::abs(a.w1 - b.w1)) /
          speed;
+}
+
+TEST(ObliqueLaw, MindlinSpringsBeginAtSecondOrder) {
+  // Mindlin's stiffness rises like a root where contact begins; what a sum over steps leaves there is of order 1.5. Not
+  // seen where sliding makes the spring forget its beginning at once. `most`: twice what is left, times steps squared.
+  struct Begun {
+    DampingConvention convention;
+    double mu, most;
+  };
+  const PlanarBodies pair{{0.3, 0.6}, {0.25, 2.0}, inertia_ratio<3>, false, Vec<2>(1, 0)};
+  for (const Begun& one : {Begun{DampingConvention::elastic, 20, 16}, Begun{DampingConvention::total, 20, 60},
+                           Begun{DampingConvention::total, 0.3, 7}}) {
+    Impact setup{{"Mindlin", NormalLaw::hertz, one.convention, 0.2, 0}, pair, 4};
+    setup.mu = one.mu;
+    const PlanarState expected = PlanarImpact(setup.planar(), pair).run(setup.touching(), setup.duration() / 4e4);
+    constexpr std::array<double, 4> steps{80.1, 160.9, 320.3, 640.7};
+    std::array<double, 4> dt, error;
+    for (int level = 0; level < 4; ++level) {
+      dt[level] = setup.duration() / steps[level];
+      error[level] = error_at<3>(setup, expected, dt[level], 8);
+    }
+    EXPECT_GT(observed_order(dt, error), 1.6) << one.mu;
+    EXPECT_LT(error[3] * steps[3] * steps[3], one.most) << one.mu;
+  }
 }
 
 TEST(ObliqueLaw, CasesTellTheLawsApart) {
