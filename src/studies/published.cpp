@@ -92,7 +92,8 @@ constexpr std::array table = {
     Published{"compression.z_star_D", Claim::equal, 4.55, 0.03, agnolin, about},
     Published{"compression.rattlers_D", Claim::equal, 0.111, 0.004, agnolin, "stated"},
     // z with rattlers: the chapter speaks of z near 6 and near 4.
-    Published{"compression.growth_A", Claim::equal, 0.05, 0.01, chapter, "\"about 5 %\""},
+    Published{"compression.growth_A", Claim::equal, 0.05, 0.01, chapter,
+              "\"about 5 %\" from kappa to infinity to 2000"},
     Published{"compression.z_2000", Claim::equal, 4.8, 0.1, chapter, "\"approaching 4.8\""},
     Published{"compression.left", Claim::at_most, 0.1, 0, chapter, "\"very little irreversible strain\": a tenth"},
     Published{"compression.moderate", Claim::equal, 0, 0.1, chapter, "\"moderate and progressive\": a tenth"},
