@@ -233,11 +233,11 @@ void add_engines(Rows& rows) {
                   .range = above(0),
                   .fallback = "from `dt_factor`",
                   .doc = "time step"});
-  rows.push_back(
-      {.path = "cd.dt_factor",
-       .target = [](Scene& s) -> FieldTarget { return &s.cd.dt_factor; },
-       .range = above(0),
-       .doc = "time step / the shortest of inertial time, 1 / rate, d / speed and sqrt(d / g); excludes `dt`"});
+  rows.push_back({.path = "cd.dt_factor",
+                  .target = [](Scene& s) -> FieldTarget { return &s.cd.dt_factor; },
+                  .range = above(0),
+                  .doc = "time step / the shortest of inertial time, 1 / rate, d / speed, sqrt(d / g) and 10 sqrt(D0 m "
+                         "/ F0); excludes `dt`"});
   rows.push_back({.path = "cd.tolerance",
                   .target = [](Scene& s) -> FieldTarget { return &s.cd.tolerance; },
                   .range = {.low = 0, .high = 1, .low_open = true, .high_open = true},

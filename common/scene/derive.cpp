@@ -95,8 +95,9 @@ NamedTime shortest_time(const Scene& scene, const Derived& derived) {
   for (const CellDrive& drive : scene.loading.drives)
     if (drive.rate && *drive.rate != 0) consider(1 / std::abs(*drive.rate), "1/rate of a drive");
   for (const PairLaw& law : derived.laws.pairs)
+    // A tenth of the bond's own time by default: docs/theory.md, "Time step".
     if (law.cohesion_range > 0)
-      consider(std::sqrt(law.cohesion_range * derived.grains.least_mass / law.cohesion), "sqrt(D0 m / F0)");
+      consider(10 * std::sqrt(law.cohesion_range * derived.grains.least_mass / law.cohesion), "10 sqrt(D0 m / F0)");
   return shortest;
 }
 

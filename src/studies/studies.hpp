@@ -109,7 +109,8 @@ inline constexpr Study cohesive_flow_study{
     "cohesive-flow",
     "Flow laws of cohesive disks against the cohesion number",
     "Roux and Chevoir 2010, sec. 3.4 (Rognon et al. 2006, 2008)",
-    "as flow-law, kappa = 1e5, attraction sqrt(4 K_N F0 h) in md, constant attraction F0 between rigid grains in cd",
+    "as flow-law, md with attraction sqrt(4 K_N F0 h) at kappa = 1e5; rigid grains, and md beside them at kappa = 1e6, "
+    "with constant attraction F0 and a range of 1e-3 d",
     Observable::mu_star,
     cohesive_flow::plan,
     cohesive_flow::report};

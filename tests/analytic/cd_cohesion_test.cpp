@@ -1,5 +1,7 @@
 // Cohesion of rigid grains: largest traction F0, Coulomb's bound mu (F_N + F0) and the rolling bound mu_R (F_N + F0)
 // (references.md, C5 and C10), attraction F0 (1 - g/D0) across a gap, and the energy that escape takes, F0 D0 / 2.
+#include <optional>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -121,8 +123,8 @@ TEST(CohesionCd, ForceAcrossAGap) {
   }
 }
 
-/// Final relative speed of a pair that starts in contact and opens at speed v.
-double escape_speed(double v, double range, double dt) {
+/// Final relative speed of a pair that starts in contact and opens at speed v; without a dt at the default step.
+double escape_speed(double v, double range, std::optional<double> dt) {
   Scene scene = cohesive_scene<2>(0, Vec<2>::Zero());
   scene.material.cohesion_range = range;
   scene.cd.dt = dt;
@@ -130,7 +132,7 @@ double escape_speed(double v, double range, double dt) {
   Sample<2> sample = pair_sample<2>(n, -1e-12);  // touching, to be sure
   set_relative_velocity<2>(sample, Vec<2>(v * n));
   const auto engine = make_engine<2>(EngineKind::cd, scene, sample);
-  engine->advance(std::lround(2 / dt));
+  engine->advance(std::lround(2 / engine->dt()));
   return relative_velocity<2>(engine->snapshot()).dot(n);
 }
 
@@ -151,6 +153,15 @@ TEST(CohesionCd, EscapeTakesTheEnergyOfTheRange) {
   EXPECT_NEAR(escape_speed(0.95 * least, range, 1e-3), 0, 1e-11);
   // Without a range nothing holds a pair that opens: one step's pull, F0 dt / m*, and in the next one it is gone.
   EXPECT_NEAR(escape_speed(0.5, 0, 1e-3), 0.5 - 1e-3 * cohesion / 0.5, 1e-12);
+}
+
+TEST(CohesionCd, TheDefaultStepResolvesTheRange) {
+  // A step of 0.1 sqrt(D0 m / F0), whose force is that of its start: g' = g + dt v', v' = v - dt (1 - g / D0) F0 / m*
+  // lets a pair escape from 1.151 F0 D0 / 2 on (this recursion by itself, with bisection).
+  constexpr double range = 0.01;
+  const double least = std::sqrt(cohesion * range / 0.5);
+  EXPECT_NEAR(escape_speed(std::sqrt(1.14) * least, range, std::nullopt), 0, 1e-9);
+  EXPECT_GT(escape_speed(std::sqrt(1.16) * least, range, std::nullopt), 0.01 * least);
 }
 
 }  // namespace
