@@ -68,12 +68,13 @@ GALET_INLINE Crossings<V> crossings(const LawKind& kind, const PairTerms<V>& law
   const V speed_force = law.damping * critical * opening;  // minus F_N^v of the linear law
   V viscous;                                               // minus what the viscous force lacks
   if (kind.hertz) {
-    viscous = only(dashpot, speed_force * sqrt(sqrt(path)) * root_correction(theta, true));
+    const V fourth = root_correction(theta, true);  // of the dashpots
+    viscous = only(dashpot, speed_force * sqrt(sqrt(path)) * fourth);
     result.normal = V(0.0) - viscous;
     const V root = sqrt(max(theta, V(1e-12))), moved = V(2.0 / 3) * theta;
     result.head = only(known, (moved - V(0.5)) * dt);
     result.ahead = only(known, (V(0.5) + root_correction(theta, false) / root - moved) * dt);
-    result.jump = only(known, root_correction(theta, true) / sqrt(root));
+    result.jump = only(known, fourth / sqrt(root));
   } else {
     viscous = only(dashpot, jump * speed_force);
     // At an end the share of the last force has part of it already.

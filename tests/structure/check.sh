@@ -31,11 +31,14 @@ files() {
   done
 }
 
+# on_files COMMAND...: runs it with the file names that are read, many at once, if there are any.
+on_files() {
+  tr '\n' '\0' | xargs -0 -r "$@"
+}
+
 # offences PATTERN WHAT: reads file names, prints the lines that match and what is wrong with them.
 offences() {
-  while IFS= read -r file; do
-    grep -nIE -e "$1" -- "$file" /dev/null | sed "s|\$|    <- $2|"
-  done
+  on_files grep -nIE -e "$1" -- /dev/null | sed "s|\$|    <- $2|"
 }
 
 include='^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]'
@@ -53,9 +56,7 @@ check_openmp() {
 }
 
 check_length() {
-  files | grep -E '\.[ch]pp$' | while IFS= read -r file; do
-    awk -v file="$file" 'END { if (NR > 500) print file ":" NR "    <- longer than 500 lines" }' "$file"
-  done
+  files | grep -E '\.[ch]pp$' | on_files awk 'FNR == 501 { print FILENAME ":501    <- longer than 500 lines" }'
 }
 
 check_paths() {
@@ -63,9 +64,7 @@ check_paths() {
 }
 
 check_once() {
-  files | grep -E '\.hpp$' | while IFS= read -r file; do
-    grep -q '^#pragma once' -- "$file" || printf '%s\n' "$file:1    <- no #pragma once"
-  done
+  files | grep -E '\.hpp$' | on_files grep -L '^#pragma once' -- | sed 's|$|:1    <- no #pragma once|'
 }
 
 status=0
