@@ -75,7 +75,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable) {
                 "inertial number {/:Italic I}",
                 friction ? "mu*" : "Phi",
                 true,
-                false,
+                friction,
                 {}};
   for (const double eta : shown)
     for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
@@ -91,7 +91,7 @@ Figure law_figure(const std::vector<StudyRow>& rows, Observable observable) {
 
 /// Both engines with the same bonds, of the constant law with a range.
 Figure range_figure(const std::vector<StudyRow>& rows) {
-  Figure figure{"Friction law with bonds of range 1e-3 d", "inertial number {/:Italic I}", "mu*", true, false, {}};
+  Figure figure{"Friction law with bonds of range 1e-3 d", "inertial number {/:Italic I}", "mu*", true, true, {}};
   for (const double eta : shown)
     for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
       const auto found = rows_at(rows, engine, Bonds::with_range, eta);

@@ -7,8 +7,12 @@ set format x '10^{%L}'
 set mxtics 10
 set xrange [0.01:1]
 set ylabel 'mu*'
+set logscale y
+set format y '10^{%L}'
+set mytics 10
+set yrange [0.1:10]
 set autoscale noextend
-set offsets 0, 0, graph 0.03, graph 0.03
+set offsets 0, 0, 0, 0
 set grid xtics ytics linecolor rgb '#d8d8d8' linewidth 0.7 linetype 1
 set border linewidth 1.2
 set errorbars 0.8
