@@ -246,6 +246,12 @@ std::vector<CellMode<D>> cell_modes(const Scene& scene, const Derived& derived, 
 
 namespace {
 
+/// h of two grains of mean diameter that F0 alone presses together.
+double deflection_of_bond(const Derived& derived, const PairLaw& law) {
+  const double k = normal_coefficient(law, derived.grains.mean_diameter / 4);
+  return deflection_under(law.normal_law, k, law.cohesion);
+}
+
 void explain_laws(const Scene& scene, const Derived& derived, std::vector<DerivedLine>& lines) {
   const LawTable& laws = derived.laws;
   const MaterialSpec& material = scene.material;
@@ -266,8 +272,13 @@ void explain_laws(const Scene& scene, const Derived& derived, std::vector<Derive
       if (law.rolling_friction > 0) add("mu_R", law.rolling_friction, mixed);
       if (law.pivoting_friction > 0) add("mu_P", law.pivoting_friction, mixed);
       if (law.cohesion > 0) add("F0", law.cohesion, material.cohesion_number ? "eta P d^(D-1)" : mixed);
-      if (law.cohesion_range > 0) add("D0", law.cohesion_range, "cohesion_range");
+      if (law.cohesion > 0 && law.cohesion_law == CohesionLaw::constant)
+        add("D0", law.cohesion_range,
+            law.cohesion_range > 0 ? "cohesion_range" : "no cohesion_range: bonds of rigid grains hold no energy");
       if (!laws.stiff) continue;
+      if (law.cohesion > 0 && law.cohesion_range > 0)
+        add("h0/D0", deflection_of_bond(derived, law) / law.cohesion_range,
+            "deflection under F0 over the range: kappa matters to bonds until it is small");
       add("zeta", law.damping_ratio, material.damping_ratio ? mixed : "inverted so that a collision has exactly e");
       if (law.tangential_damping_ratio > 0) add("zeta_T", law.tangential_damping_ratio, "tangential_damping_ratio");
       add(hertz ? "E*" : "K_N", law.stiffness,

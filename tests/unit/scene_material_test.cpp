@@ -377,6 +377,30 @@ Scene two_materials() {
   return scene;
 }
 
+/// What `galet describe` says of a symbol; empty without it.
+std::string described(const Scene& scene, const std::string& symbol) {
+  for (const DerivedLine& line : explain(scene, derive(scene, grain_facts<2>(scene, initial_sample<2>(scene)))))
+    if (line.symbol == symbol) return line.value;
+  return "";
+}
+
+TEST(SceneMaterial, SaysWhetherBondsDependOnKappa) {
+  Scene scene = parse_scene(R"(dimension = 2
+grains = {count = 10, diameter = 1, mass = 1}
+run.duration = 1
+loading.pressure = 1
+material = {friction = 0.3, restitution = 0.9, stiffness_level = 1e5, cohesion_number = 50, cohesion_range = 1e-3}
+)",
+                            "test.toml");
+  // h0 = F0 / K_N = eta d / kappa = 5e-4 d.
+  EXPECT_EQ(described(scene, "h0/D0"), "0.5");
+  scene.material.stiffness_level = 1e6;
+  EXPECT_EQ(described(scene, "h0/D0"), "0.05");
+  scene.material.cohesion_range = 0;
+  EXPECT_EQ(described(scene, "h0/D0"), "");
+  EXPECT_EQ(described(scene, "D0"), "0");
+}
+
 TEST(SceneMaterial, GroupsHaveTheirShareAndTheirMasses) {
   const Scene scene = two_materials();
   const Sample<2> sample = initial_sample<2>(scene);
