@@ -24,7 +24,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array engines = {EngineKind::md, EngineKind::cd};
 constexpr double coarse = 0.01;       ///< cd's step over sqrt(d / g), where it is not varied
-constexpr double still = 1e-4;        ///< kinetic energy per grain over m g d below which a layer has stopped
+constexpr double still = 1e-3;        ///< I of the bulk below which a layer has stopped: cd creeps within its tolerance
 constexpr double from_floor = 3.5;    ///< layers that the floor orders, its grains included
 constexpr double from_surface = 3;    ///< layers that the free surface lets fluctuate
 constexpr double refined_angle = 20;  ///< of the runs at finer steps
@@ -42,7 +42,7 @@ std::vector<LocalState> bulk_of(const StudyRow& row) {
   return bulk;
 }
 
-bool flows(const StudyRow& row) { return row[Observable::kinetic_per_grain].value > still; }
+bool flows(const StudyRow& row) { return mean_over(bulk_of(row), &LocalState::inertial_number).value > still; }
 
 /// Change from the lowest to the highest layer of the bulk along the fitted line, over the mean.
 Estimate change_in_depth(const std::vector<LocalState>& bulk, double LocalState::*quantity) {
