@@ -137,8 +137,9 @@ Figure depth_figure(const std::vector<StudyRow>& rows) {
                 {}};
   for (const EngineKind engine : engines)
     for (const StudyRow* row : slopes(rows, engine)) {
-      if (!flows(*row)) continue;
-      Series series{fmt::format("{}, {:g} degrees", engine_name(engine), row->plan.parameter("theta")), {}, {}, {}};
+      const double angle = row->plan.parameter("theta");
+      if (!flows(*row) || angle < 18 || angle == 19) continue;  // more lines than colours otherwise
+      Series series{fmt::format("{}, {:g} degrees", engine_name(engine), angle), {}, {}, {}};
       series.line = true;
       for (const LocalState& layer : layer_states(row->run.measures.profile)) {
         if (layer.solid_fraction < 0.5 || layer.position < 1) continue;
