@@ -10,12 +10,12 @@
 #include <Eigen/SparseCore>
 #include <Eigen/UmfPackSupport>
 
-#include "cd/discrete/scaled_problem.hpp"
+#include "cd/discrete/newton_matrix.hpp"
 
 namespace galet::cd {
 
 template <int B>
-class BlockMatrix {
+class BlockMatrix final : public NewtonMatrix<B> {
  public:
   using Block = typename ScaledProblem<B>::Block;
 
@@ -28,16 +28,14 @@ class BlockMatrix {
     }
   }
 
-  /// W + E.
-  bool factorise(std::span<const Block> added) {
+  bool factorise(std::span<const Block> added) override {
     return factorise_as([](int, const Block& block) { return block; }, added);
   }
-  /// D W + E.
-  bool factorise(std::span<const Block> left, std::span<const Block> added) {
+  bool factorise(std::span<const Block> left, std::span<const Block> added) override {
     return factorise_as([&](int c, const Block& block) -> Block { return left[c] * block; }, added);
   }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) {
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) override {
     return dense_ ? Eigen::VectorXd(dense_solver_.solve(right)) : Eigen::VectorXd(sparse_solver_.solve(right));
   }
 

@@ -21,12 +21,12 @@
 #include <Eigen/UmfPackSupport>
 
 #include "cd/discrete/global_problem.hpp"
-#include "cd/discrete/scaled_problem.hpp"
+#include "cd/discrete/newton_matrix.hpp"
 
 namespace galet::cd {
 
 template <int B>
-class BodyMatrix {
+class BodyMatrix final : public NewtonMatrix<B> {
  public:
   using Vector = typename ScaledProblem<B>::Vector;
   using Block = typename ScaledProblem<B>::Block;
@@ -40,18 +40,16 @@ class BodyMatrix {
     prepare(bodies.mass);
   }
 
-  /// W + E.
-  bool factorise(std::span<const Block> added) {
+  bool factorise(std::span<const Block> added) override {
     std::fill(left_.begin(), left_.end(), Block::Identity());
     return factorise_with(added);
   }
-  /// D W + A.
-  bool factorise(std::span<const Block> left, std::span<const Block> added) {
+  bool factorise(std::span<const Block> left, std::span<const Block> added) override {
     std::copy(left.begin(), left.end(), left_.begin());
     return factorise_with(added);
   }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) {
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) override {
     Eigen::VectorXd x = solve_once(right), rest = right - product(x);
     for (int round = 0; round < most_refinements; ++round) {
       const Eigen::VectorXd better = x + solve_once(rest), less = right - product(better);

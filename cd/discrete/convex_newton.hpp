@@ -14,18 +14,18 @@
 #include <vector>
 
 #include "cd/discrete/monitor.hpp"
+#include "cd/discrete/newton_matrix.hpp"
 
 namespace galet::cd {
 
-/// Matrix: solves with D W + A (cd/discrete/block_matrix.hpp, cd/discrete/body_matrix.hpp).
-template <int B, class Matrix>
+template <int B>
 class ConvexNewton {
  public:
   using Vector = typename ScaledProblem<B>::Vector;
   using Block = typename ScaledProblem<B>::Block;
   using Vectors = std::vector<Vector>;
 
-  ConvexNewton(const ScaledProblem<B>& problem, Matrix& matrix, Vectors start)
+  ConvexNewton(const ScaledProblem<B>& problem, NewtonMatrix<B>& matrix, Vectors start)
       : problem_(problem),
         matrix_(matrix),
         centre_(start),
@@ -143,7 +143,7 @@ class ConvexNewton {
   }
 
   const ScaledProblem<B>& problem_;
-  Matrix& matrix_;
+  NewtonMatrix<B>& matrix_;
   double sigma_ = 100;
   int flat_ = 0;  ///< steps in a row, all whole ones, from which f falls by less than its rounding
   Vectors centre_, x_, motion_, argument_, mapped_, change_, answer_;

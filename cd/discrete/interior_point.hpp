@@ -16,11 +16,11 @@
 
 #include "cd/discrete/lorentz.hpp"
 #include "cd/discrete/monitor.hpp"
+#include "cd/discrete/newton_matrix.hpp"
 
 namespace galet::cd {
 
-/// Matrix: solves with W + E (cd/discrete/block_matrix.hpp, cd/discrete/body_matrix.hpp).
-template <int B, class Matrix>
+template <int B>
 class InteriorPoint {
  public:
   static constexpr int M = B == 2 ? 2 : 3;      ///< numbers of a cone
@@ -29,7 +29,7 @@ class InteriorPoint {
   using Block = typename ScaledProblem<B>::Block;
   using Point = typename Lorentz<M>::Vector;
 
-  InteriorPoint(const ScaledProblem<B>& problem, Matrix& matrix)
+  InteriorPoint(const ScaledProblem<B>& problem, NewtonMatrix<B>& matrix)
       : problem_(problem),
         matrix_(matrix),
         r_(problem.size()),
@@ -175,7 +175,7 @@ class InteriorPoint {
   }
 
   const ScaledProblem<B>& problem_;
-  Matrix& matrix_;
+  NewtonMatrix<B>& matrix_;
   std::vector<Vector> r_;
   std::vector<Block> added_;
   std::vector<ConePair> cones_;

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "cd/discrete/monitor.hpp"
+#include "cd/discrete/newton_matrix.hpp"
 
 namespace galet::cd {
 
-/// Matrix: solves with D W + A (cd/discrete/block_matrix.hpp, cd/discrete/body_matrix.hpp).
-template <int B, class Matrix>
+template <int B>
 class ProximalNewton {
  public:
   using Vector = typename ScaledProblem<B>::Vector;
   using Block = typename ScaledProblem<B>::Block;
 
-  ProximalNewton(const ScaledProblem<B>& problem, Matrix& matrix, std::vector<Vector> start)
+  ProximalNewton(const ScaledProblem<B>& problem, NewtonMatrix<B>& matrix, std::vector<Vector> start)
       : problem_(problem),
         matrix_(matrix),
         centre_(start),
@@ -100,7 +100,7 @@ class ProximalNewton {
   }
 
   const ScaledProblem<B>& problem_;
-  Matrix& matrix_;
+  NewtonMatrix<B>& matrix_;
   double sigma_ = 100;
   std::vector<Vector> centre_, r_, tried_, mapped_, argument_, motion_;
   std::vector<Block> left_, identity_;

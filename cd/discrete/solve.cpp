@@ -105,21 +105,18 @@ class Solvers {
     return iterate<B>(sweep, momentum, budget, r, monitor_);
   }
 
-  template <class Matrix>
-  bool interior_point(const char* name, Matrix& matrix, long budget) {
+  bool interior_point(const char* name, NewtonMatrix<B>& matrix, long budget) {
     monitor_.begin(name);
-    return InteriorPoint<B, Matrix>(problem_, matrix).solve(budget, monitor_);
+    return InteriorPoint<B>(problem_, matrix).solve(budget, monitor_);
   }
-  template <class Matrix>
-  bool newton(const char* name, Matrix& matrix, long budget) {
+  bool newton(const char* name, NewtonMatrix<B>& matrix, long budget) {
     monitor_.begin(name);
-    return ProximalNewton<B, Matrix>(problem_, matrix, monitor_.best()).solve(budget, monitor_);
+    return ProximalNewton<B>(problem_, matrix, monitor_.best()).solve(budget, monitor_);
   }
 
-  template <class Matrix>
-  bool convex_newton(const char* name, Matrix& matrix, long budget) {
+  bool convex_newton(const char* name, NewtonMatrix<B>& matrix, long budget) {
     monitor_.begin(name);
-    return ConvexNewton<B, Matrix>(problem_, matrix, monitor_.best()).solve(budget, monitor_);
+    return ConvexNewton<B>(problem_, matrix, monitor_.best()).solve(budget, monitor_);
   }
 
   /// Many grains: momentum for as long as it halves the error in a thousand sweeps, then conjugate directions.
