@@ -2,7 +2,9 @@
 // one core; and of the md engine on two threads against one.
 //
 //   lammps_speed FOLDER cases [CASE...]     CSV, a row per case (default: all; 20 to 90 s each)
-//   lammps_speed FOLDER threads             CSV, 4096 and 32768 spheres, wall time
+//   lammps_speed FOLDER threads             CSV, 4096 and 32768 spheres, wall time; beside the speedup of two threads
+//                                           that of two runs which share nothing (`side_by_side`): what the machine,
+//                                           whose processors may be threads of one core, has to give
 //   lammps_speed FOLDER packings            only makes the packings
 //
 // Packings: benchmarks/peers/packings.hpp, kept in FOLDER. `hold`: the cell does not move; `shear`: constant volume,
@@ -20,8 +22,10 @@
 // equal: half-step velocities, lever arms and springs differ (lammps_run.hpp), and contacts of loose grains decide
 // later ones. The exit code is 1 when a difference is above what those account for (`sound`).
 #include <algorithm>
+#include <barrier>
 #include <cstdio>
 #include <cstring>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -246,12 +250,30 @@ int run_cases(const std::filesystem::path& folder, const std::vector<std::string
   return sound ? 0 : 1;
 }
 
+/// Wall seconds of two runs of one thread each at the same time, from the start of both to the end of the later one.
+double seconds_side_by_side(const Work<3>& work) {
+  std::barrier both(2);
+  double seconds[2];
+  const auto run = [&](double& mine) {
+    auto engine = md::make_engine<3>(work.scene, work.derived, work.sample);
+    engine->advance(warm);
+    both.arrive_and_wait();
+    const double start = wall_seconds();
+    engine->advance(work.steps);
+    mine = wall_seconds() - start;
+  };
+  std::thread other(run, std::ref(seconds[1]));
+  run(seconds[0]);
+  other.join();
+  return std::max(seconds[0], seconds[1]);
+}
+
 int run_threads(const std::filesystem::path& folder) {
-  fmt::print("case,grains,steps,one_M_per_s,two_M_per_s,speedup_median,speedup_min,speedup_max\n");
+  fmt::print("case,grains,steps,one_M_per_s,two_M_per_s,speedup_median,speedup_min,speedup_max,side_by_side\n");
   for (const Case& which : cases) {
     if (which.dim == 2 || which.hertz) continue;
     const Work<3> work = work_of<3>(which, folder);
-    std::vector<double> one, two, gain;
+    std::vector<double> one, two, gain, side_by_side;
     const double work_done = 1e-6 * static_cast<double>(work.sample.count()) * static_cast<double>(work.steps);
     for (int k = 0; k < which.pairs(); ++k) {
       set_thread_count(1);
@@ -259,10 +281,13 @@ int run_threads(const std::filesystem::path& folder) {
       set_thread_count(2);
       two.push_back(work_done / run_galet<3>(work, wall_seconds).seconds);
       gain.push_back(two.back() / one.back());
+      set_thread_count(1);
+      side_by_side.push_back(2 * work_done / seconds_side_by_side(work) / one.back());
     }
     const Spread speedup = spread(gain);
-    fmt::print("{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}\n", which.name, work.sample.count(), work.steps,
-               spread(one).median, spread(two).median, speedup.median, speedup.least, speedup.most);
+    fmt::print("{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}\n", which.name, work.sample.count(), work.steps,
+               spread(one).median, spread(two).median, speedup.median, speedup.least, speedup.most,
+               spread(side_by_side).median);
     std::fflush(stdout);
   }
   return 0;
