@@ -180,10 +180,12 @@ END
   printf 'Two threads against one, by wall time:\n\n'
   csv_table "$results/lammps_speed/threads.csv"
   measured_on lammps_speed
-  printf 'The same on another processor:\n\n'
-  csv_table "$results/lammps_speed_xeon/cases.csv"
-  csv_table "$results/lammps_speed_xeon/threads.csv"
-  measured_on lammps_speed_xeon
+  printf 'The same on other processors (`side_by_side`: speedup of two runs that share nothing):\n\n'
+  for other in lammps_speed_zen5 lammps_speed_xeon; do
+    csv_table "$results/$other/cases.csv"
+    csv_table "$results/$other/threads.csv"
+    measured_on $other
+  done
   printf 'The same with AVX2 (four lanes), on a host that others load, before grains stepped behind their contacts:\n\n'
   csv_table "$results/lammps_speed_avx2/cases.csv"
   measured_on lammps_speed_avx2
