@@ -19,7 +19,8 @@ namespace {
 
 /// Colours that differ for every kind of sight (Okabe and Ito), with a shape of its own for each.
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#888888"};
-constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 6, 4};
+constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 7, 5};
+constexpr std::array open_shapes = {6, 4, 8, 12, 10, 14, 6, 4};
 
 /// A text between single quotes for gnuplot. Control characters would end the line of the script.
 std::string quote(const std::string& text) {
@@ -137,15 +138,15 @@ std::string clause(const Figure& figure, std::size_t index, const std::string& d
   std::string title = series.label;
   const std::size_t hidden = hidden_count(figure, series);
   if (hidden > 0) title += fmt::format(" ({} off the axes)", hidden);
-  const std::size_t look = index % colours.size();
+  const std::size_t look = (series.look < 0 ? index : static_cast<std::size_t>(series.look)) % colours.size();
   if (series.band)
     return fmt::format(
         "{0} index {1} using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '{2}' fillstyle transparent solid 0.2 "
         "noborder {3}, \\\n     {0} index {1} using 1:2 with lines linecolor rgb '{2}' linewidth 1.5 notitle",
         quote(data), index, colours[look], title.empty() ? "notitle" : "title " + quote(title));
   return fmt::format("{} index {} using {} with {} linecolor rgb '{}' pointtype {} pointsize 0.7 linewidth 1.5 {}",
-                     quote(data), index, errors ? "1:2:3" : "1:2", style, colours[look], shapes[look],
-                     title.empty() ? "notitle" : "title " + quote(title));
+                     quote(data), index, errors ? "1:2:3" : "1:2", style, colours[look],
+                     (series.open ? open_shapes : shapes)[look], title.empty() ? "notitle" : "title " + quote(title));
 }
 
 std::string script_text(const Figure& figure, const std::string& name) {

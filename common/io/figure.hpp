@@ -13,6 +13,8 @@ struct Series {
   std::vector<double> y_error;  ///< empty: no error bars
   bool line = false;            ///< joined by lines
   bool band = false;            ///< a line without points in a band of +- y_error: what others have found
+  int look = -1;                ///< which colour and shape, from 0 on; -1: as its place among the series says
+  bool open = false;            ///< open points, over the filled ones of the same look with which they are compared
 };
 
 struct Figure {

@@ -51,12 +51,12 @@ Figure friction_figure(const std::vector<StudyRow>& rows, Observable observable)
       true,
       false,
       {}};
-  for (const double value : values_of(rows, "mu"))
+  const std::vector<double> frictions = values_of(rows, "mu");
+  for (std::size_t k = 0; k < frictions.size(); ++k)
     for (const EngineKind engine : engines) {
-      const auto states = states_of(rows, engine, value);
-      if (!states.empty())
-        figure.series.push_back(
-            series_of(fmt::format("mu = {:g}, {}", value, engine_name(engine)), states, "I", observable));
+      const auto states = states_of(rows, engine, frictions[k]);
+      const std::string label = fmt::format("mu = {:g}, {}", frictions[k], engine_name(engine));
+      if (!states.empty()) figure.series.push_back(with_look(series_of(label, states, "I", observable), k, engine));
     }
   return figure;
 }

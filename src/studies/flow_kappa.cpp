@@ -74,7 +74,9 @@ Figure level_figure(const std::vector<StudyRow>& rows, Observable observable) {
   const bool friction = observable == Observable::mu_star;
   Figure figure{
       "Effect of the stiffness of contacts", "stiffness level kappa", friction ? "mu*" : "Phi", true, false, {}};
-  for (const double state : values_of(rows, "I")) {
+  const std::vector<double> states = values_of(rows, "I");
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const double state = states[k];
     if (const StudyRow* rigid = rigid_row(rows, state)) {
       const Estimate value = (*rigid)[observable];
       figure.series.push_back({fmt::format("rigid cd, I = {:g}", state),
@@ -82,7 +84,8 @@ Figure level_figure(const std::vector<StudyRow>& rows, Observable observable) {
                                {value.value, value.value},
                                {value.error, value.error},
                                false,
-                               true});
+                               true,
+                               static_cast<int>(k)});
     }
     for (const EngineKind engine : {EngineKind::md, EngineKind::cd}) {
       std::vector<const StudyRow*> levels;
@@ -90,7 +93,8 @@ Figure level_figure(const std::vector<StudyRow>& rows, Observable observable) {
         if (std::isfinite(row->plan.parameter("kappa"))) levels.push_back(row);
       if (levels.empty()) continue;
       const std::string who = engine == EngineKind::md ? "md" : "compliant cd";
-      figure.series.push_back(series_of(fmt::format("{}, I = {:g}", who, state), levels, "kappa", observable));
+      const std::string label = fmt::format("{}, I = {:g}", who, state);
+      figure.series.push_back(with_look(series_of(label, levels, "kappa", observable), k, engine));
     }
   }
   return figure;

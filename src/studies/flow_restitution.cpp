@@ -60,16 +60,16 @@ Figure restitution_figure(const std::vector<StudyRow>& rows, double friction, Ob
                 {}};
   if (friction == 0 && observable == Observable::mu_star) {
     const Published& limit = published("restitution.collisional");
-    Series band{"collisional limit, e = 0.9", {0.1, 0.3}, {limit.value, limit.value}, {0.01, 0.01}, false, true};
+    Series band{"collisional limit, e = 0.9", {0.1, 0.3}, {limit.value, limit.value}, {0.01, 0.01}, false, true, 6};
     figure.series.push_back(band);
   }
   // All five would be ten series on top of each other.
-  for (const double restitution : {least, 0.5, most})
+  const std::array restitutions = {least, 0.5, most};
+  for (std::size_t k = 0; k < restitutions.size(); ++k)
     for (const EngineKind engine : engines) {
-      const auto states = rows_with(rows, engine, {{"mu", friction}, {"e", restitution}});
-      if (!states.empty())
-        figure.series.push_back(
-            series_of(fmt::format("e = {:g}, {}", restitution, engine_name(engine)), states, "I", observable));
+      const auto states = rows_with(rows, engine, {{"mu", friction}, {"e", restitutions[k]}});
+      const std::string label = fmt::format("e = {:g}, {}", restitutions[k], engine_name(engine));
+      if (!states.empty()) figure.series.push_back(with_look(series_of(label, states, "I", observable), k, engine));
     }
   return figure;
 }

@@ -85,6 +85,12 @@ Series series_of(const std::string& label, const std::vector<const StudyRow*>& r
   return series;
 }
 
+Series with_look(Series series, std::size_t look, EngineKind engine) {
+  series.look = static_cast<int>(look);
+  series.open = engine == EngineKind::cd;
+  return series;
+}
+
 const StageReport* stage_of(const StudyRow& row, std::string_view name) {
   for (const StageReport& stage : row.run.stages)
     if (stage.name == name) return &stage;

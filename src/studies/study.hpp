@@ -104,6 +104,8 @@ Estimate mean_over(const std::vector<const StudyRow*>& samples, const std::funct
 /// One line of points with error bars.
 Series series_of(const std::string& label, const std::vector<const StudyRow*>& rows, std::string_view parameter,
                  Observable observable);
+/// The same, where both engines show a state: in the state's look, with open points for cd.
+Series with_look(Series series, std::size_t look, EngineKind engine);
 
 /// The stage called `name`; null when the run has not come to its end.
 const StageReport* stage_of(const StudyRow& row, std::string_view name);

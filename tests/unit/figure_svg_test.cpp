@@ -245,6 +245,29 @@ TEST(Figure, NamesAndLabelsAreOnlyText) {
   EXPECT_THROW(write_figure(folder.path() + "/", figure), std::invalid_argument);
 }
 
+/// "linecolor ... pointtype N" of each series of a script.
+std::vector<std::string> looks(const std::string& script) {
+  std::vector<std::string> found;
+  for (std::size_t at = script.find("linecolor rgb '#", script.find("\nplot ")); at != std::string::npos;
+       at = script.find("linecolor rgb '#", at + 1))
+    found.push_back(script.substr(at, script.find(" pointsize", at) - at));
+  return found;
+}
+
+TEST(Figure, OpenPointsHaveTheColourOfTheirFilledOnes) {
+  const TemporaryFolder folder;
+  Figure figure = simple_figure();
+  figure.series.push_back(figure.series[0]);
+  figure.series[2].look = 1, figure.series[2].open = true;
+  write_figure(folder.file("f"), figure);
+  const auto found = looks(file_bytes(folder.file("f.gp")));
+  ASSERT_EQ(found.size(), 3u);
+  const auto colour = [&](int k) { return found[k].substr(0, found[k].find(" pointtype")); };
+  EXPECT_NE(colour(0), colour(1));
+  EXPECT_EQ(colour(1), colour(2));
+  EXPECT_NE(found[1], found[2]);
+}
+
 // A point without a value is none.
 TEST(Figure, PointsThatCanNotBeShownAreCounted) {
   SKIP_WITHOUT_GNUPLOT;

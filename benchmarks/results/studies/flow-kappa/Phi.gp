@@ -17,8 +17,8 @@ set terminal svg size 800,584 font 'DejaVu Sans,15' background rgb 'white' enhan
 set output './Phi.svg'
 plot './Phi.dat' index 0 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#0072b2' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.1', \
      './Phi.dat' index 0 using 1:2 with lines linecolor rgb '#0072b2' linewidth 1.5 notitle, \
-     './Phi.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'md, I = 0.1', \
-     './Phi.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.1'
+     './Phi.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'md, I = 0.1', \
+     './Phi.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 6 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.1'
 if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
   set terminal pngcairo size 1600,1168 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
 } else {

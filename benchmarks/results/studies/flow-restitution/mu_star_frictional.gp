@@ -16,9 +16,9 @@ set key outside below center horizontal Left reverse samplen 2.5 height 0.8 spac
 set terminal svg size 800,562 font 'DejaVu Sans,15' background rgb 'white' enhanced
 set output './mu_star_frictional.svg'
 plot './mu_star_frictional.dat' index 0 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'e = 0.1, md', \
-     './mu_star_frictional.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'e = 0.1, cd', \
+     './mu_star_frictional.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 6 pointsize 0.7 linewidth 1.5 title 'e = 0.1, cd', \
      './mu_star_frictional.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'e = 0.9, md', \
-     './mu_star_frictional.dat' index 3 using 1:2:3 with yerrorbars linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'e = 0.9, cd'
+     './mu_star_frictional.dat' index 3 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 8 pointsize 0.7 linewidth 1.5 title 'e = 0.9, cd'
 if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
   set terminal pngcairo size 1600,1124 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
 } else {

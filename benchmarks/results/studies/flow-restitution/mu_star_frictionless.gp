@@ -15,12 +15,12 @@ set errorbars 0.8
 set key outside below center horizontal Left reverse samplen 2.5 height 0.8 spacing 1.1
 set terminal svg size 800,606 font 'DejaVu Sans,15' background rgb 'white' enhanced
 set output './mu_star_frictionless.svg'
-plot './mu_star_frictionless.dat' index 0 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#0072b2' fillstyle transparent solid 0.2 noborder title 'collisional limit, e = 0.9', \
-     './mu_star_frictionless.dat' index 0 using 1:2 with lines linecolor rgb '#0072b2' linewidth 1.5 notitle, \
-     './mu_star_frictionless.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'e = 0.1, md', \
-     './mu_star_frictionless.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'e = 0.1, cd', \
-     './mu_star_frictionless.dat' index 3 using 1:2:3 with yerrorbars linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'e = 0.9, md', \
-     './mu_star_frictionless.dat' index 4 using 1:2:3 with yerrorbars linecolor rgb '#e69f00' pointtype 11 pointsize 0.7 linewidth 1.5 title 'e = 0.9, cd'
+plot './mu_star_frictionless.dat' index 0 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#000000' fillstyle transparent solid 0.2 noborder title 'collisional limit, e = 0.9', \
+     './mu_star_frictionless.dat' index 0 using 1:2 with lines linecolor rgb '#000000' linewidth 1.5 notitle, \
+     './mu_star_frictionless.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'e = 0.1, md', \
+     './mu_star_frictionless.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 6 pointsize 0.7 linewidth 1.5 title 'e = 0.1, cd', \
+     './mu_star_frictionless.dat' index 3 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'e = 0.9, md', \
+     './mu_star_frictionless.dat' index 4 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 8 pointsize 0.7 linewidth 1.5 title 'e = 0.9, cd'
 if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
   set terminal pngcairo size 1600,1212 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
 } else {

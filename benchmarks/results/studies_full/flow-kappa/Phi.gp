@@ -17,20 +17,20 @@ set terminal svg size 800,672 font 'DejaVu Sans,15' background rgb 'white' enhan
 set output './Phi.svg'
 plot './Phi.dat' index 0 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#0072b2' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.01', \
      './Phi.dat' index 0 using 1:2 with lines linecolor rgb '#0072b2' linewidth 1.5 notitle, \
-     './Phi.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'md, I = 0.01', \
-     './Phi.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.01', \
-     './Phi.dat' index 3 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#cc79a7' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.03', \
-     './Phi.dat' index 3 using 1:2 with lines linecolor rgb '#cc79a7' linewidth 1.5 notitle, \
-     './Phi.dat' index 4 using 1:2:3 with yerrorbars linecolor rgb '#e69f00' pointtype 11 pointsize 0.7 linewidth 1.5 title 'md, I = 0.03', \
-     './Phi.dat' index 5 using 1:2:3 with yerrorbars linecolor rgb '#56b4e9' pointtype 15 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.03', \
-     './Phi.dat' index 6 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#000000' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.1', \
-     './Phi.dat' index 6 using 1:2 with lines linecolor rgb '#000000' linewidth 1.5 notitle, \
-     './Phi.dat' index 7 using 1:2:3 with yerrorbars linecolor rgb '#888888' pointtype 4 pointsize 0.7 linewidth 1.5 title 'md, I = 0.1', \
-     './Phi.dat' index 8 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.1', \
-     './Phi.dat' index 9 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#d55e00' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.2', \
-     './Phi.dat' index 9 using 1:2 with lines linecolor rgb '#d55e00' linewidth 1.5 notitle, \
-     './Phi.dat' index 10 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'md, I = 0.2', \
-     './Phi.dat' index 11 using 1:2:3 with yerrorbars linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.2'
+     './Phi.dat' index 1 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 7 pointsize 0.7 linewidth 1.5 title 'md, I = 0.01', \
+     './Phi.dat' index 2 using 1:2:3 with yerrorbars linecolor rgb '#0072b2' pointtype 6 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.01', \
+     './Phi.dat' index 3 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#d55e00' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.03', \
+     './Phi.dat' index 3 using 1:2 with lines linecolor rgb '#d55e00' linewidth 1.5 notitle, \
+     './Phi.dat' index 4 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 5 pointsize 0.7 linewidth 1.5 title 'md, I = 0.03', \
+     './Phi.dat' index 5 using 1:2:3 with yerrorbars linecolor rgb '#d55e00' pointtype 4 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.03', \
+     './Phi.dat' index 6 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#009e73' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.1', \
+     './Phi.dat' index 6 using 1:2 with lines linecolor rgb '#009e73' linewidth 1.5 notitle, \
+     './Phi.dat' index 7 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 9 pointsize 0.7 linewidth 1.5 title 'md, I = 0.1', \
+     './Phi.dat' index 8 using 1:2:3 with yerrorbars linecolor rgb '#009e73' pointtype 8 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.1', \
+     './Phi.dat' index 9 using 1:($2-$3):($2+$3) with filledcurves fillcolor rgb '#cc79a7' fillstyle transparent solid 0.2 noborder title 'rigid cd, I = 0.2', \
+     './Phi.dat' index 9 using 1:2 with lines linecolor rgb '#cc79a7' linewidth 1.5 notitle, \
+     './Phi.dat' index 10 using 1:2:3 with yerrorbars linecolor rgb '#cc79a7' pointtype 13 pointsize 0.7 linewidth 1.5 title 'md, I = 0.2', \
+     './Phi.dat' index 11 using 1:2:3 with yerrorbars linecolor rgb '#cc79a7' pointtype 12 pointsize 0.7 linewidth 1.5 title 'compliant cd, I = 0.2'
 if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
   set terminal pngcairo size 1600,1344 font 'DejaVu Sans,15' fontscale 2 linewidth 2 pointscale 2 enhanced
 } else {
