@@ -7,8 +7,8 @@ results=$root/benchmarks/results/studies
 cat <<'END'
 # Published results, reproduced
 
-Made by `benchmarks/reproduction.sh` from the results under `benchmarks/results/studies`, which `galet study NAME` makes again
-(`benchmarks/run.sh studies`). Each study compares with published numbers: *yes*: within the stated uncertainty; *yes (2 errors)*:
+Made by `benchmarks/reproduction.sh` from the results under `benchmarks/results/studies_full` or, where the published size has not been
+run to its end, `benchmarks/results/studies`; `galet study NAME` makes them again (`benchmarks/run.sh studies`). Each study compares with published numbers: *yes*: within the stated uncertainty; *yes (2 errors)*:
 only within two standard errors of ours; *NO*: neither. Where the source states no uncertainty, `findings.csv` says what stands for
 it. The size that was run stands in each head; a quick size is a first look. Scenes (`scenes/*.toml`) run alone with `galet run`.
 
