@@ -17,7 +17,8 @@ namespace galet {
 
 namespace {
 
-/// Colours that differ for every kind of sight (Okabe and Ito), with a shape of its own for each.
+/// Colours that differ for every kind of sight (Okabe and Ito), each with a shape; black and grey have those of the
+/// first.
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#888888"};
 constexpr std::array shapes = {7, 5, 9, 13, 11, 15, 7, 5};
 constexpr std::array open_shapes = {6, 4, 8, 12, 10, 14, 6, 4};
